@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace raylab {
+
+/// An 8-bit RGBA image as stored in its file: no transfer function is applied. Rows from top to bottom.
+struct Image8 {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint32_t> texels;  ///< R in the lowest byte
+    bool hasAlpha = false;         ///< some texel is not opaque
+};
+
+/// Decodes PNG, JPEG, BMP or TGA of 8 or 16 bits a channel (16 is cut to 8); grey becomes RGB. A miss (another format,
+/// damaged, cut short, absurd size) is nullopt, and `whyNot` says why in words that follow a file name.
+std::optional<Image8> decodeImage8(std::span<const std::byte> encoded, std::string& whyNot);
+
+}  // namespace raylab

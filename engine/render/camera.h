@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "engine/scene/scene.h"
+#include "shaders/shared/frame.h"
+
+namespace raylab {
+
+/// The camera that a text names: its number or name in the scene, or "px,py,pz,tx,ty,tz,fov" (position, target, vertical
+/// field of view in degrees, y up). Number 0 of a scene without cameras is a view of the whole. Throws Error that lists
+/// the scene's cameras where none fits.
+Camera chooseCamera(const Scene& scene, const std::string& text);
+
+/// The fields of the camera and of the image's size (methods.md, "Common").
+void writeCamera(const Camera& camera, uint32_t width, uint32_t height, shared::FrameParams& frame);
+
+}  // namespace raylab

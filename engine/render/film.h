@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/gpu/buffer.h"
+#include "engine/image/bitmap.h"
+#include "shaders/shared/frame.h"
+
+namespace raylab {
+
+/// The film as the host sees it: estimates in double precision.
+struct FilmImage {
+    Bitmap mean;      ///< RGB radiance
+    Bitmap variance;  ///< RGB, of one sample; divided by `samples` it is the variance of the mean
+    Bitmap samples;   ///< one channel: samples a pixel
+    uint64_t rays = 0;                   ///< traced in all
+    uint64_t nonFinitePixels = 0;        ///< pixels in which a sample was infinite or NaN (and was left out)
+    double estimatedRelativeError = 0;   ///< root mean square of the standard error over the mean, of luminance
+};
+
+/// Sums of samples on the device, in bands of rows, each within the device's storage buffer range.
+class Film {
+public:
+    Film(Device& device, uint32_t width, uint32_t height);
+
+    VkBuffer buffer() const { return buffer_.get(); }
+    uint32_t rowsPerBand() const { return rowsPerBand_; }  ///< a multiple of shared::kTileSize
+    size_t bandBytes() const { return bandBytes_; }        ///< range of one band's binding
+    size_t memoryBytes() const { return buffer_.sizeBytes(); }
+
+    void clear(Device& device);
+    FilmImage read(Device& device) const;
+
+private:
+    Buffer buffer_;
+    uint32_t width_, height_, rowsPerBand_;
+    size_t bandBytes_;
+};
+
+/// Means, variances and the error of a film's pixels, row by row.
+FilmImage developFilm(const std::vector<shared::FilmPixel>& pixels, uint32_t width, uint32_t height);
+
+}  // namespace raylab

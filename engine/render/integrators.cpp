@@ -1,0 +1,38 @@
+#include "engine/render/integrators.h"
+
+#include <array>
+
+#include "engine/core/error.h"
+#include "shaders/shared/frame.h"
+
+namespace raylab {
+namespace {
+
+constexpr std::array kIntegrators = {
+    IntegratorInfo{"path", shared::kIntegratorPath, "path tracing: next event estimation, multiple importance sampling", false},
+    IntegratorInfo{"normal", shared::kIntegratorNormal, "shading normal, 0.5 + 0.5 n", true},
+    IntegratorInfo{"albedo", shared::kIntegratorAlbedo, "base colour", true},
+    IntegratorInfo{"depth", shared::kIntegratorDepth, "distance from the camera; PNG: divided by the scene's diagonal", true},
+    IntegratorInfo{"uv", shared::kIntegratorUv, "texture coordinates, fractional part", true},
+    IntegratorInfo{"primitive", shared::kIntegratorPrimitive, "a colour for each triangle", true},
+    IntegratorInfo{"instance", shared::kIntegratorInstance, "a colour for each instance", true},
+    IntegratorInfo{"barycentrics", shared::kIntegratorBarycentrics, "weights of the three vertices", true},
+};
+
+}  // namespace
+
+std::span<const IntegratorInfo> integratorTable() { return kIntegrators; }
+
+const IntegratorInfo& findIntegrator(std::string_view name) {
+    for (const IntegratorInfo& info : kIntegrators)
+        if (info.name == name) return info;
+    throw Error("there is no integrator '" + std::string(name) + "'");
+}
+
+std::vector<std::string> integratorNames() {
+    std::vector<std::string> names;
+    for (const IntegratorInfo& info : kIntegrators) names.emplace_back(info.name);
+    return names;
+}
+
+}  // namespace raylab

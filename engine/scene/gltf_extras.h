@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/scene/gltf_document.h"
+#include "engine/scene/scene.h"
+
+namespace raylab {
+
+/// What glTF has no place for, from `extras.raylab` of the shown scene, or else of the whole file:
+///
+///     "extras": {"raylab": {"environment": "sky.hdr", "environmentScale": 1.0,
+///                           "sun": {"elevation": 45, "azimuth": 0, "turbidity": 2.5, "scale": 1}}}
+///
+/// Angles in degrees, see SkyDescription; the image is named relative to the file. An image that is missing or damaged
+/// is a warning; non-finite or negative texels become 0 and are counted. Throws Error for values of the wrong type or
+/// out of range.
+void readGltfExtras(const GltfDocument& document, Scene& scene);
+
+}  // namespace raylab

@@ -1,0 +1,157 @@
+#include "engine/scene/gltf_nodes.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace raylab {
+namespace {
+
+/// How often shared children may be placed beyond once a node. A tree, the only thing that glTF allows, needs none.
+constexpr size_t kMostExtraPlacements = 1'000'000;
+
+glm::dmat4 localTransform(const JsonView& node) {
+    if (node.has("matrix")) return glm::make_mat4(node.numbers("matrix", std::vector<double>(16)).data());
+    const std::vector<double> t = node.numbers("translation", {0.0, 0.0, 0.0});
+    const std::vector<double> r = node.numbers("rotation", {0.0, 0.0, 0.0, 1.0});
+    const std::vector<double> s = node.numbers("scale", {1.0, 1.0, 1.0});
+    glm::dquat rotation(r[3], r[0], r[1], r[2]);
+    rotation = glm::length(rotation) > 0.0 ? glm::normalize(rotation) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(t[0], t[1], t[2])) * glm::mat4_cast(rotation) *
+           glm::scale(glm::dmat4(1.0), glm::dvec3(s[0], s[1], s[2]));
+}
+
+struct Node {
+    glm::dmat4 local{1.0};
+    std::vector<size_t> children;
+};
+
+Node readNode(const JsonView& json, size_t nodeCount) {
+    Node node{.local = localTransform(json), .children = {}};
+    const JsonView children = json.array("children");
+    for (size_t c = 0; c < children.size(); ++c) node.children.push_back(children.indexAt(c, nodeCount));
+    return node;
+}
+
+std::vector<size_t> rootNodes(const JsonView& root) {
+    const JsonView nodes = root.array("nodes");
+    const JsonView scenes = root.array("scenes");
+    std::vector<size_t> roots;
+    if (scenes.size() > 0) {
+        const JsonView shown = scenes.element(root.index("scene", scenes.size()).value_or(0)).array("nodes");
+        for (size_t i = 0; i < shown.size(); ++i) roots.push_back(shown.indexAt(i, nodes.size()));
+        return roots;
+    }
+    std::vector<bool> hasParent(nodes.size(), false);
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        const JsonView children = nodes.element(n).array("children");
+        for (size_t c = 0; c < children.size(); ++c) hasParent[children.indexAt(c, nodes.size())] = true;
+    }
+    for (size_t n = 0; n < nodes.size(); ++n)
+        if (!hasParent[n]) roots.push_back(n);
+    return roots;
+}
+
+/// The unit vector along column `axis`; the identity's where a scale of 0 leaves no direction.
+glm::dvec3 axisOf(const glm::dmat4& matrix, int axis) {
+    const glm::dvec3 column(matrix[axis]);
+    const double length = glm::length(column);
+    return length > 0.0 ? column / length : glm::dvec3(glm::dmat3(1.0)[axis]);
+}
+
+Camera perspectiveCamera(const JsonView& json, const PlacedNode& placed) {
+    Camera camera;
+    camera.position = glm::dvec3(placed.toWorld[3]);
+    const glm::dvec3 forward = -axisOf(placed.toWorld, 2);
+    const double reach = std::max(1.0, glm::length(glm::dvec3(placed.toWorld[3])));
+    camera.target = glm::dvec3(placed.toWorld[3]) + forward * reach;
+    camera.up = axisOf(placed.toWorld, 1);
+    camera.fovYRadians = static_cast<float>(json.object("perspective").number("yfov", 0.8));
+    if (!(camera.fovYRadians > 0.0f && camera.fovYRadians < 3.14f)) json.fail("needs a yfov between 0 and pi radians");
+    return camera;
+}
+
+LightKind lightKind(const JsonView& light) {
+    const std::string type = light.text("type", "");
+    if (type == "point") return LightKind::point;
+    if (type == "spot") return LightKind::spot;
+    if (type == "directional") return LightKind::directional;
+    light.fail("has the type \"" + type + "\"; KHR_lights_punctual knows point, spot and directional");
+}
+
+Light punctualLight(const JsonView& json, const PlacedNode& placed) {
+    Light light;
+    light.kind = lightKind(json);
+    light.position = glm::dvec3(placed.toWorld[3]);
+    light.direction = -axisOf(placed.toWorld, 2);
+    light.intensity = json.vec3("color", glm::vec3(1.0f)) * static_cast<float>(json.number("intensity", 1.0));
+    const JsonView spot = json.object("spot");
+    light.outerConeRadians = static_cast<float>(spot.number("outerConeAngle", 0.7853981633974483));
+    light.innerConeRadians = std::min(static_cast<float>(spot.number("innerConeAngle", 0.0)), light.outerConeRadians);
+    return light;
+}
+
+}  // namespace
+
+std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
+    const JsonView root = document.root();
+    const JsonView json = root.array("nodes");
+    std::vector<Node> nodes;
+    for (size_t n = 0; n < json.size(); ++n) nodes.push_back(readNode(json.element(n), json.size()));
+    std::vector<PlacedNode> placed;
+    std::vector<PlacedNode> stack;
+    const std::vector<size_t> roots = rootNodes(root);
+    for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, nodes[*it].local});
+    while (!stack.empty()) {
+        const PlacedNode current = stack.back();
+        stack.pop_back();
+        placed.push_back(current);
+        if (placed.size() > nodes.size() + kMostExtraPlacements) json.fail("share children more than a million times");
+        const std::vector<size_t>& children = nodes[current.node].children;
+        for (auto it = children.rbegin(); it != children.rend(); ++it)
+            stack.push_back({*it, current.toWorld * nodes[*it].local});
+    }
+    return placed;
+}
+
+void readGltfCameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+    const JsonView cameras = document.root().array("cameras");
+    const JsonView allNodes = document.root().array("nodes");
+    if (cameras.size() == 0) return;
+    for (const PlacedNode& placed : nodes) {
+        const JsonView node = allNodes.element(placed.node);
+        const std::optional<size_t> index = node.index("camera", cameras.size());
+        if (!index) continue;
+        const JsonView json = cameras.element(*index);
+        const std::string name = json.text("name", node.text("name", "camera " + std::to_string(*index)));
+        if (json.text("type", "perspective") != "perspective") {
+            scene.warnings.push_back("camera \"" + name +
+                                     "\" is orthographic and was left out: cameras are perspective");
+            continue;
+        }
+        scene.cameras.push_back(perspectiveCamera(json, placed));
+        scene.cameras.back().name = name;
+    }
+}
+
+void readGltfLights(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+    const JsonView lights = document.root().object("extensions").object("KHR_lights_punctual").array("lights");
+    const JsonView allNodes = document.root().array("nodes");
+    if (lights.size() == 0) return;
+    for (const PlacedNode& placed : nodes) {
+        const JsonView node = allNodes.element(placed.node);
+        const auto index = node.object("extensions").object("KHR_lights_punctual").index("light", lights.size());
+        if (!index) continue;
+        const JsonView json = lights.element(*index);
+        Light light = punctualLight(json, placed);
+        light.name = json.text("name", node.text("name", "light " + std::to_string(*index)));
+        if (glm::any(glm::lessThan(light.intensity, glm::vec3(0.0f)))) {
+            scene.warnings.push_back("light \"" + light.name + "\" has a negative intensity, taken as 0");
+            light.intensity = glm::max(light.intensity, glm::vec3(0.0f));
+        }
+        scene.lights.push_back(light);
+    }
+}
+
+}  // namespace raylab

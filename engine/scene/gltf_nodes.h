@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/gltf_document.h"
+#include "engine/scene/scene.h"
+
+namespace raylab {
+
+/// A node of the scene that is shown, its transform composed in double precision. A node with two parents is placed
+/// twice.
+struct PlacedNode {
+    size_t node = 0;
+    glm::dmat4 toWorld{1.0};
+};
+
+/// The nodes of the default scene, parents before children; without any scene, all that have no parent and what is
+/// below them. The document must be valid (no cycles). Throws Error where shared children would be placed more than a
+/// million times.
+std::vector<PlacedNode> placeNodes(const GltfDocument& document);
+
+/// Perspective cameras; orthographic ones are left out with a warning.
+void readGltfCameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene);
+
+/// KHR_lights_punctual. A light shines along the node's -Z; intensities are taken as they are (candela, lux).
+void readGltfLights(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene);
+
+}  // namespace raylab

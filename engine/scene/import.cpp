@@ -1,0 +1,132 @@
+#include "engine/scene/import.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/scene/import_parts.h"
+
+namespace raylab {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExtensions[] = {".gltf", ".glb", ".obj", ".ply", ".stl"};
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+/// Singular is meant relative to the lengths of the columns: a scene at 1e-4 of its size is fine, a flattened one is
+/// not. A float matrix cannot tell less than 1e-7 from 0.
+bool isInvertible(const glm::dmat4& matrix) {
+    double lengths = 1.0;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!(std::abs(matrix[c][r]) <= static_cast<double>(kLargestCoordinate))) return false;
+    for (int c = 0; c < 3; ++c) lengths *= glm::length(glm::dvec3(matrix[c]));
+    return std::abs(glm::determinant(glm::dmat3(matrix))) > 1e-7 * lengths;
+}
+
+void dropUnusedMeshes(Scene& scene) {
+    std::vector<bool> used(scene.meshes.size(), false);
+    for (const Instance& instance : scene.instances) used[instance.mesh] = true;
+    std::vector<uint32_t> newIndex(scene.meshes.size());
+    std::vector<Mesh> kept;
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        newIndex[m] = static_cast<uint32_t>(kept.size());
+        used[m] = used[m] && !scene.meshes[m].triangles.empty();
+        if (used[m]) kept.push_back(std::move(scene.meshes[m]));
+    }
+    std::erase_if(scene.instances, [&used](const Instance& instance) { return !used[instance.mesh]; });
+    for (Instance& instance : scene.instances) instance.mesh = newIndex[instance.mesh];
+    scene.meshes = std::move(kept);
+}
+
+void dropUnusedMaterials(Scene& scene) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Mesh& mesh : scene.meshes) used[mesh.material] = true;
+    std::vector<uint32_t> newIndex(scene.materials.size());
+    std::vector<Material> kept;
+    for (size_t m = 0; m < scene.materials.size(); ++m) {
+        newIndex[m] = static_cast<uint32_t>(kept.size());
+        if (used[m]) kept.push_back(std::move(scene.materials[m]));
+    }
+    for (Mesh& mesh : scene.meshes) mesh.material = newIndex[mesh.material];
+    scene.materials = std::move(kept);
+}
+
+void requireTriangles(const Scene& scene, const fs::path& path) {
+    if (!scene.instances.empty()) return;
+    std::string message = path.string() + ": there is nothing to render in it, not one triangle";
+    for (size_t i = 0; i < std::min<size_t>(scene.warnings.size(), 3); ++i) message += "; " + scene.warnings[i];
+    throw Error(message + "; open a file with triangles");
+}
+
+/// Names a few; a file may hold thousands.
+void reportSingular(const std::vector<std::string>& names, std::vector<std::string>& warnings) {
+    if (names.empty()) return;
+    std::string list;
+    for (size_t i = 0; i < std::min<size_t>(names.size(), 5); ++i) list += (i == 0 ? " \"" : ", \"") + names[i] + "\"";
+    warnings.push_back("instances left out for a singular or non-finite transform: " + std::to_string(names.size()) +
+                       ":" + list + (names.size() > 5 ? ", ..." : ""));
+}
+
+void supplyTangents(Scene& scene) {
+    tbb::parallel_for(size_t{0}, scene.meshes.size(), [&scene](size_t m) {
+        Mesh& mesh = scene.meshes[m];
+        if (scene.materials[mesh.material].normalTexture != kNoTexture) ensureTangents(mesh);
+    });
+}
+
+}  // namespace
+
+void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld) {
+    if (isInvertible(toWorld))
+        draft.scene.instances.push_back({name, static_cast<uint32_t>(mesh), glm::mat4(toWorld)});
+    else
+        draft.singular.push_back(name);
+}
+
+Scene finishScene(SceneDraft&& draft, const fs::path& path) {
+    Scene scene = std::move(draft.scene);
+    scene.name = path.stem().string();
+    draft.repairs.report(scene.warnings);
+    reportSingular(draft.singular, scene.warnings);
+    dropUnusedMeshes(scene);
+    requireTriangles(scene, path);
+    dropUnusedMaterials(scene);
+    resolveTextures(draft.requests, scene);
+    supplyTangents(scene);
+    return scene;
+}
+
+std::string importableExtensions() {
+    std::string list;
+    for (const char* extension : kExtensions) {
+        if (!list.empty()) list += ' ';
+        list += extension;
+    }
+    return list;
+}
+
+Scene importScene(const fs::path& path) {
+    requireReadableFile(path);
+    const std::string extension = lowerExtension(path);
+    if (std::find(std::begin(kExtensions), std::end(kExtensions), extension) == std::end(kExtensions))
+        throw Error(path.string() + ": \"" + extension + "\" is not a scene format that is read; supported are " +
+                    importableExtensions());
+    try {
+        return extension == ".gltf" || extension == ".glb" ? importGltf(path) : importThroughAssimp(path, extension);
+    } catch (const std::bad_alloc&) {
+        throw Error(path.string() + ": not enough memory to read it; it is too large, or damaged");
+    }
+}
+
+}  // namespace raylab

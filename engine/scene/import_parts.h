@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/scene/import_mesh.h"
+#include "engine/scene/import_texture.h"
+#include "engine/scene/scene.h"
+
+namespace raylab {
+
+/// A scene on its way in. The texture indices of its materials count `requests`; meshes may be empty and transforms
+/// singular.
+struct SceneDraft {
+    Scene scene;
+    TextureRequests requests;
+    MeshRepairs repairs;
+    std::vector<std::string> singular;  ///< instances that were left out
+};
+
+/// Adds an instance unless its transform is singular or not finite; finishScene then names it in a warning.
+void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld);
+
+/// Drops meshes without triangles or instances and materials without meshes, computes tangents where a normal map asks
+/// for them, decodes the textures and writes the report on repairs. What the images point to must still be alive.
+/// Throws Error where no triangle is left.
+Scene finishScene(SceneDraft&& draft, const std::filesystem::path& path);
+
+/// The two ways in; importScene chooses by the extension (in lower case, with its dot).
+Scene importGltf(const std::filesystem::path& path);
+Scene importThroughAssimp(const std::filesystem::path& path, const std::string& extension);
+
+}  // namespace raylab

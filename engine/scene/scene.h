@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/image/bitmap.h"
+
+namespace raylab {
+
+enum class Wrap : uint32_t { repeat = 0, clamp = 1, mirror = 2 };
+
+/// An 8-bit RGBA image as a material reads it. `srgb` says how the colour channels are to be decoded (alpha is linear).
+struct Texture {
+    std::string name;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint32_t> texels;  ///< R in the lowest byte; rows from top to bottom
+    bool srgb = false;
+    Wrap wrapU = Wrap::repeat;
+    Wrap wrapV = Wrap::repeat;
+};
+
+enum class AlphaMode : uint32_t { opaque = 0, mask = 1, blend = 2 };
+
+constexpr int32_t kNoTexture = -1;
+
+/// Metallic-roughness material (glTF 2.0, appendix B) with transmission. Colours are linear sRGB primaries.
+/// Texture indices refer to Scene::textures; each texture multiplies its factor.
+struct Material {
+    std::string name;
+    glm::vec3 baseColor{1.0f};
+    float alpha = 1.0f;
+    int32_t baseColorTexture = kNoTexture;  ///< RGB colour, A alpha
+    float metallic = 0.0f;
+    float roughness = 1.0f;                         ///< perceptual; alpha_GGX = roughness^2
+    int32_t metallicRoughnessTexture = kNoTexture;  ///< G roughness, B metallic
+    int32_t normalTexture = kNoTexture;             ///< tangent space, +Y up
+    float normalScale = 1.0f;
+    glm::vec3 emission{0.0f};  ///< radiance, strength included
+    int32_t emissionTexture = kNoTexture;
+    AlphaMode alphaMode = AlphaMode::opaque;
+    float alphaCutoff = 0.5f;
+    float transmission = 0.0f;  ///< share of light that enters the surface instead of being scattered back
+    float ior = 1.5f;
+    bool thin = true;          ///< transmission without refraction: a sheet, not the boundary of a volume
+    float specular = 1.0f;     ///< scales the dielectric reflection; 0 makes the base purely Lambertian
+    bool doubleSided = false;  ///< both faces emit; other shading is two-sided always
+};
+
+/// Triangles of one material. All per-vertex arrays are either empty or as long as `positions`.
+struct Mesh {
+    std::string name;
+    uint32_t material = 0;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;   ///< unit; empty: flat shading by the geometric normal
+    std::vector<glm::vec2> uvs;       ///< v grows downwards, as in glTF: (0,0) is the first texel of the first row
+    std::vector<glm::vec4> tangents;  ///< unit, w = handedness of the bitangent, as in glTF
+    std::vector<glm::uvec3> triangles;
+};
+
+struct Instance {
+    std::string name;
+    uint32_t mesh = 0;
+    glm::mat4 objectToWorld{1.0f};
+};
+
+struct Camera {
+    std::string name;
+    glm::vec3 position{0.0f, 0.0f, 5.0f};
+    glm::vec3 target{0.0f};  ///< any point on the axis of view
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
+    float fovYRadians = 0.8f;
+};
+
+enum class LightKind : uint32_t { point = 0, directional = 1, spot = 2 };
+
+/// Punctual light (KHR_lights_punctual).
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::point;
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< unit, the way the light travels
+    glm::vec3 intensity{1.0f};  ///< point, spot: radiant intensity; directional: irradiance on a facing plane
+    float innerConeRadians = 0.0f;
+    float outerConeRadians = 0.7853982f;
+};
+
+/// Radiance from infinitely far away, as a latitude-longitude map: row 0 is up (+Y), column 0 looks along -Z... see
+/// shaders/lib/environment.glsl for the one mapping.
+struct Environment {
+    Bitmap radiance;  ///< three channels
+};
+
+/// Sun and clear sky above a scene that has no radiance map.
+struct SkyDescription {
+    float sunElevationRadians = 0.7853982f;  ///< above the horizon (the XZ plane)
+    float sunAzimuthRadians = 0.0f;          ///< clockwise as seen from above: 0 at -Z, pi/2 at +X
+    float turbidity = 2.5f;                  ///< 1 (pure air) to 10 (haze)
+    float scale = 1.0f;                      ///< multiplies the radiance
+};
+
+/// Everything that a file says, as plain data. Indices are checked by the importer: a Scene never points outside
+/// itself.
+struct Scene {
+    std::string name;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    std::optional<Environment> environment;
+    std::optional<SkyDescription> sky;
+    std::vector<std::string> warnings;  ///< what was missing or put right, a sentence each
+};
+
+}  // namespace raylab

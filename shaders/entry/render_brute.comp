@@ -1,0 +1,4 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "trace/brute.glsl"
+#include "film/render_main.glsl"

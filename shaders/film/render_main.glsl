@@ -1,0 +1,25 @@
+// A workgroup renders a tile of 8 x 8 pixels; a dispatch is a range of tiles and of samples.
+#include "film/accumulate.glsl"
+#include "integrators/integrate.glsl"
+
+layout(local_size_x = kWorkgroupSize) in;
+layout(set = 0, binding = kBindFilm, std430) buffer FilmBlock { FilmPixel film[]; };
+layout(push_constant) uniform PushBlock { RenderPush push; };
+
+// Lanes in blocks of 4 x 2 pixels, so that the eight lanes of a vector see nearly the same part of the scene.
+uvec2 pixelInTile(uint lane) {
+    uint block = lane >> 3;
+    return uvec2((block & 1u) * 4u + (lane & 3u), (block >> 1) * 2u + ((lane >> 2) & 1u));
+}
+
+void main() {
+    uint tile = push.firstTile + gl_WorkGroupID.x;
+    uvec2 corner = uvec2(tile % frame.tilesPerRow, tile / frame.tilesPerRow) * kTileSize;
+    uvec2 pixel = corner + pixelInTile(gl_LocalInvocationID.x);
+    if (pixel.x >= frame.width || pixel.y >= frame.height) return;
+    uint at = (pixel.y - push.firstRow) * frame.width + pixel.x;
+    FilmPixel accumulated = film[at];
+    for (uint i = 0u; i < push.sampleCount; ++i) addSample(accumulated, integrate(pixel, push.firstSample + i));
+    accumulated.rays += tracedRays;
+    film[at] = accumulated;
+}

@@ -1,0 +1,62 @@
+// Radiance from infinitely far away: a constant, or a latitude-longitude map sampled by an alias table over its texels.
+// The one mapping: u = 1/2 + atan(x, -z) / 2pi (the middle column looks along -Z, azimuth grows towards +X),
+// v = acos(y) / pi (row 0 is up).
+#ifndef RAYLAB_ENVIRONMENT_GLSL
+#define RAYLAB_ENVIRONMENT_GLSL
+
+#include "lib/sampling.glsl"
+#include "lib/scene_buffers.glsl"
+
+vec2 environmentUv(vec3 d) { return vec2(0.5 + atan(d.x, -d.z) * (0.5 * kInvPi), acos(clamp(d.y, -1.0, 1.0)) * kInvPi); }
+
+int environmentTexel(ivec2 cell) {
+    int w = int(frame.environmentWidth), h = int(frame.environmentHeight);
+    int x = cell.x % w;
+    return clamp(cell.y, 0, h - 1) * w + (x < 0 ? x + w : x);
+}
+
+// Density over solid angle of a texel whose relative density over the map is `relative`.
+float environmentPdf(float relative, float sinTheta) {
+    return sinTheta > 0.0 ? relative / (2.0 * kPi * kPi * sinTheta) : 0.0;
+}
+
+// Radiance along d (bilinear) and the density with which sampleEnvironment chooses d: 0 for a constant, which scattering
+// alone finds with less noise.
+vec3 environmentRadiance(vec3 d, out float pdf) {
+    if (frame.environmentWidth == 0u) {
+        pdf = 0.0;
+        return frame.environmentConstant;
+    }
+    vec2 size = vec2(frame.environmentWidth, frame.environmentHeight);
+    vec2 at = environmentUv(d) * size;
+    vec2 corner = at - 0.5;
+    ivec2 cell = ivec2(floor(corner));
+    vec2 f = corner - vec2(cell);
+    vec4 c00 = texelFetch(environmentTexels, environmentTexel(cell));
+    vec4 c10 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(1, 0)));
+    vec4 c01 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(0, 1)));
+    vec4 c11 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(1, 1)));
+    float nearest = f.y < 0.5 ? (f.x < 0.5 ? c00.w : c10.w) : (f.x < 0.5 ? c01.w : c11.w);
+    pdf = environmentPdf(nearest, sqrt(max(0.0, 1.0 - d.y * d.y)));
+    return mix(mix(c00.rgb, c10.rgb, f.x), mix(c01.rgb, c11.rgb, f.x), f.y);
+}
+
+vec3 environmentRadiance(vec3 d) {
+    float pdf;
+    return environmentRadiance(d, pdf);
+}
+
+// A direction in proportion to the map: `choice` picks the texel, `within` the place in it.
+vec3 sampleEnvironment(vec2 choice, vec2 within) {
+    uint count = frame.environmentWidth * frame.environmentHeight;
+    uint texel = min(uint(choice.x * float(count)), count - 1u);
+    uvec2 entry = texelFetch(environmentAlias, int(texel)).xy;
+    if (choice.y >= uintBitsToFloat(entry.x)) texel = entry.y;
+    vec2 cell = vec2(texel % frame.environmentWidth, texel / frame.environmentWidth);
+    vec2 uv = (cell + within) / vec2(frame.environmentWidth, frame.environmentHeight);
+    float theta = uv.y * kPi;
+    float phi = (uv.x - 0.5) * 2.0 * kPi;
+    return vec3(sin(theta) * sin(phi), cos(theta), -sin(theta) * cos(phi));
+}
+
+#endif

@@ -1,0 +1,72 @@
+// Descriptors of the scene and typed loads from them.
+#ifndef RAYLAB_SCENE_BUFFERS_GLSL
+#define RAYLAB_SCENE_BUFFERS_GLSL
+
+#include "shared/bindings.h"
+#include "shared/frame.h"
+#include "shared/needs.h"
+#include "shared/scene.h"
+
+layout(constant_id = kSpecNeeds) const uint kNeeds = kNeedAll;
+layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorPath;
+layout(constant_id = kSpecStackSize) const uint kStackSize = 64;
+
+bool needs(uint bit) { return (kNeeds & bit) != 0u; }
+
+layout(set = 0, binding = kBindFrame, std140) uniform FrameBlock { FrameParams frame; };
+
+layout(set = 0, binding = kBindNodes) uniform usamplerBuffer nodeWords;
+layout(set = 0, binding = kBindTraceTriangles) uniform usamplerBuffer traceTriangleWords;
+layout(set = 0, binding = kBindTraceInstances) uniform usamplerBuffer traceInstanceWords;
+layout(set = 0, binding = kBindInstances) uniform usamplerBuffer instanceWords;
+layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer triangleWords;
+layout(set = 0, binding = kBindVertices) uniform usamplerBuffer vertexWords;
+layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer materialWords;
+layout(set = 0, binding = kBindTextures) uniform usamplerBuffer textureWords;
+layout(set = 0, binding = kBindTexels) uniform usamplerBuffer texels;
+layout(set = 0, binding = kBindEmissive) uniform usamplerBuffer emissiveWords;
+layout(set = 0, binding = kBindPunctual) uniform usamplerBuffer punctualWords;
+layout(set = 0, binding = kBindEnvironment) uniform samplerBuffer environmentTexels;
+layout(set = 0, binding = kBindEnvironmentAlias) uniform usamplerBuffer environmentAlias;
+
+InstanceData loadInstanceHeader(uint instance) {
+    uvec4 w = texelFetch(instanceWords, int(instance * kWordsInstance + 3u));
+    return InstanceData(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), w.x, w.y, w.z, w.w);
+}
+
+InstanceData loadInstance(uint instance) {
+    InstanceData data = loadInstanceHeader(instance);
+    if (needs(kNeedTransforms)) {
+        int at = int(instance * kWordsInstance);
+        data.objectToWorld0 = uintBitsToFloat(texelFetch(instanceWords, at));
+        data.objectToWorld1 = uintBitsToFloat(texelFetch(instanceWords, at + 1));
+        data.objectToWorld2 = uintBitsToFloat(texelFetch(instanceWords, at + 2));
+    }
+    return data;
+}
+
+MaterialData loadMaterial(uint material) {
+    int at = int(material * kWordsMaterial);
+    vec4 a = uintBitsToFloat(texelFetch(materialWords, at));
+    vec4 b = uintBitsToFloat(texelFetch(materialWords, at + 1));
+    vec4 c = uintBitsToFloat(texelFetch(materialWords, at + 2));
+    uvec4 d = texelFetch(materialWords, at + 3);
+    vec4 df = uintBitsToFloat(d);
+    uvec4 e = needs(kNeedTextures) ? texelFetch(materialWords, at + 4) : uvec4(kNoTextureIndex);
+    return MaterialData(a.xyz, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, df.x, df.y, df.z, d.w, e.x, e.y, e.z, e.w);
+}
+
+vec3 decodeOctahedral(vec2 e) {
+    vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
+    float t = max(-n.z, 0.0);
+    n.x += n.x >= 0.0 ? -t : t;
+    n.y += n.y >= 0.0 ? -t : t;
+    return normalize(n);
+}
+
+vec3 decodeNormal(uint packed) { return decodeOctahedral(unpackSnorm2x16(packed)); }
+vec4 decodeTangent(uint packed) {
+    return vec4(decodeOctahedral(unpackSnorm2x16(packed & ~1u)), (packed & 1u) != 0u ? 1.0 : -1.0);
+}
+
+#endif

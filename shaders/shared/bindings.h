@@ -1,0 +1,36 @@
+// Descriptor set 0, declared once: what lies where, the workgroup, the specialisation constants.
+#ifndef RAYLAB_SHARED_BINDINGS_H
+#define RAYLAB_SHARED_BINDINGS_H
+
+#include "types.h"
+
+RAYLAB_SHARED_BEGIN
+
+RAYLAB_CONST uint kBindFrame = 0;            // uniform buffer, FrameParams
+RAYLAB_CONST uint kBindFilm = 1;             // dynamic storage buffer, FilmPixel (the band that is being rendered)
+RAYLAB_CONST uint kBindNodes = 2;            // texel buffer, uvec4: two a node (NodeBvh2q)
+RAYLAB_CONST uint kBindTraceTriangles = 3;   // texel buffer, uvec4: three a triangle, in leaf order (TraceTriangle)
+RAYLAB_CONST uint kBindTraceInstances = 4;   // texel buffer, uvec4: six an instance of a tree (TraceInstance)
+RAYLAB_CONST uint kBindInstances = 5;        // texel buffer, uvec4: four an instance (InstanceData)
+RAYLAB_CONST uint kBindTriangles = 6;        // texel buffer, uvec4: one a triangle of a mesh (vertex indices)
+RAYLAB_CONST uint kBindVertices = 7;         // texel buffer, uvec4: two a vertex (VertexData)
+RAYLAB_CONST uint kBindMaterials = 8;        // texel buffer, uvec4: five a material (MaterialData)
+RAYLAB_CONST uint kBindTextures = 9;         // texel buffer, uvec4: one a texture (TextureData)
+RAYLAB_CONST uint kBindTexels = 10;          // texel buffer, uint: RGBA8, all levels of all textures
+RAYLAB_CONST uint kBindEmissive = 11;        // texel buffer, uvec4: four an emissive triangle (EmissiveData)
+RAYLAB_CONST uint kBindPunctual = 12;        // texel buffer, uvec4: four a punctual light (PunctualData)
+RAYLAB_CONST uint kBindEnvironment = 13;     // texel buffer, vec4: radiance, relative density of sampling
+RAYLAB_CONST uint kBindEnvironmentAlias = 14;  // texel buffer, uvec2: threshold (float bits), alias
+RAYLAB_CONST uint kBindRays = 15;            // storage buffer, RayData: only in the ray-list kernels
+RAYLAB_CONST uint kBindHits = 16;            // storage buffer, HitData: only in the ray-list kernels
+RAYLAB_CONST uint kBindingCount = 17;
+
+RAYLAB_CONST uint kTileSize = 8;                            // a workgroup renders a tile of 8 x 8 pixels
+RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;
+
+RAYLAB_CONST uint kSpecNeeds = 0;       // which NEED_ bits the kernel contains
+RAYLAB_CONST uint kSpecIntegrator = 1;  // IntegratorId
+RAYLAB_CONST uint kSpecStackSize = 2;   // entries of the traversal stack: what this scene's trees can fill
+
+RAYLAB_SHARED_END
+#endif

@@ -1,0 +1,24 @@
+// What a kernel contains. A bit that the scene does not need is a branch that the specialised kernel does not have.
+#ifndef RAYLAB_SHARED_NEEDS_H
+#define RAYLAB_SHARED_NEEDS_H
+
+#include "types.h"
+
+RAYLAB_SHARED_BEGIN
+
+RAYLAB_CONST uint kNeedInstancing = 1u << 0;      // two levels: a tree over instances above the trees over triangles
+RAYLAB_CONST uint kNeedTransforms = 1u << 1;      // an instance whose matrix is not the identity
+RAYLAB_CONST uint kNeedSmoothNormals = 1u << 2;   // vertex normals
+RAYLAB_CONST uint kNeedTextures = 1u << 3;        // any texture fetch, hence texture coordinates and ray cones
+RAYLAB_CONST uint kNeedNormalMaps = 1u << 4;      // tangent frames and normal textures
+RAYLAB_CONST uint kNeedAlpha = 1u << 5;           // alpha test inside the traversal
+RAYLAB_CONST uint kNeedSpecular = 1u << 6;        // GGX reflection (dielectric coat or metal)
+RAYLAB_CONST uint kNeedTransmission = 1u << 7;    // smooth dielectric
+RAYLAB_CONST uint kNeedEmissive = 1u << 8;        // emissive triangles as lights
+RAYLAB_CONST uint kNeedPunctual = 1u << 9;        // point, directional and spot lights
+RAYLAB_CONST uint kNeedEnvironment = 1u << 10;    // radiance from infinitely far away
+RAYLAB_CONST uint kNeedCount = 11;
+RAYLAB_CONST uint kNeedAll = (1u << 11) - 1u;
+
+RAYLAB_SHARED_END
+#endif

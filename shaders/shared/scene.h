@@ -1,0 +1,145 @@
+// The scene as the kernels read it. Every struct is a whole number of 16-byte words, because the kernels fetch uvec4s
+// from texel buffers: on lavapipe a load costs by its number, not by its width.
+#ifndef RAYLAB_SHARED_SCENE_H
+#define RAYLAB_SHARED_SCENE_H
+
+#include "types.h"
+
+RAYLAB_SHARED_BEGIN
+
+// Traversal: a triangle in leaf order, world space in the merged tree, object space below an instance.
+struct TraceTriangle {
+    vec3 p0;
+    uint instance;  // kInheritInstance: the instance whose tree this is
+    vec3 p1;
+    uint primitive;  // index within its mesh
+    vec3 p2;
+    uint alphaTested;  // 1 where a hit must pass acceptsCandidate()
+};
+RAYLAB_CHECK(TraceTriangle, 48);
+RAYLAB_CONST uint kWordsTraceTriangle = 3;
+RAYLAB_CONST uint kInheritInstance = 0xffffffffu;
+
+// Traversal: a leaf of the tree over instances. Rows of the 3x4 matrix world to object.
+struct TraceInstance {
+    vec4 worldToObject0;
+    vec4 worldToObject1;
+    vec4 worldToObject2;
+    vec3 gridOrigin;
+    uint root;  // child reference of the tree's root node
+    vec3 gridStep;
+    uint instance;
+    uint firstTriangle;  // range of TraceTriangles, for the brute-force tracer
+    uint triangleCount;
+    uint padding0;
+    uint padding1;
+};
+RAYLAB_CHECK(TraceInstance, 96);
+RAYLAB_CONST uint kWordsTraceInstance = 6;
+
+// Shading: an instance of a mesh. Rows of the 3x4 matrix object to world.
+struct InstanceData {
+    vec4 objectToWorld0;
+    vec4 objectToWorld1;
+    vec4 objectToWorld2;
+    uint firstTriangle;  // into the triangles of all meshes
+    uint material;
+    uint flags;  // kInstance...
+    uint padding;
+};
+RAYLAB_CHECK(InstanceData, 64);
+RAYLAB_CONST uint kWordsInstance = 4;
+RAYLAB_CONST uint kInstanceSmooth = 1u;    // vertices carry normals
+RAYLAB_CONST uint kInstanceMirrored = 2u;  // negative determinant
+
+struct TriangleData {
+    uint v0;
+    uint v1;
+    uint v2;
+    uint padding;
+};
+RAYLAB_CHECK(TriangleData, 16);
+
+struct VertexData {
+    vec3 position;
+    uint normal;  // octahedral, 2 x 16 bits
+    float u;
+    float v;
+    uint tangent;  // octahedral, 16 + 15 bits, lowest bit: handedness
+    uint padding;
+};
+RAYLAB_CHECK(VertexData, 32);
+RAYLAB_CONST uint kWordsVertex = 2;
+
+struct MaterialData {
+    vec3 baseColor;
+    float alpha;
+    vec3 emission;
+    float alphaCutoff;  // alphaTested by blending: kAlphaBlend
+    float metallic;
+    float roughness;
+    float transmission;
+    float ior;
+    float specular;
+    float normalScale;
+    float emissionWeight;  // light sampling: density over area is emissionWeight / FrameParams.emissiveTotal
+    uint flags;            // kMaterial...
+    uint baseColorTexture;
+    uint metallicRoughnessTexture;
+    uint normalTexture;
+    uint emissionTexture;
+};
+RAYLAB_CHECK(MaterialData, 80);
+RAYLAB_CONST uint kWordsMaterial = 5;
+RAYLAB_CONST uint kNoTextureIndex = 0xffffffffu;
+RAYLAB_CONST float kAlphaBlend = -1.0f;
+RAYLAB_CONST uint kMaterialDoubleSided = 1u;
+RAYLAB_CONST uint kMaterialThin = 2u;
+
+struct TextureData {
+    uint firstTexel;  // level 0; the others follow it
+    uint width;
+    uint height;
+    uint flags;  // bits 0-1 wrap u, 2-3 wrap v, 4 sRGB, 8-12 number of levels
+};
+RAYLAB_CHECK(TextureData, 16);
+RAYLAB_CONST uint kTextureSrgb = 16u;
+RAYLAB_CONST uint kTextureLevelShift = 8;
+
+// An emissive triangle in world space. Entry of an alias table (Walker 1977).
+struct EmissiveData {
+    vec3 p0;
+    float threshold;
+    vec3 edge1;
+    uint alias;
+    vec3 edge2;
+    uint material;
+    uint instance;
+    uint primitive;
+    float frontSign;  // frontSign * cross(edge1, edge2) points to the front
+    uint padding;
+};
+RAYLAB_CHECK(EmissiveData, 64);
+RAYLAB_CONST uint kWordsEmissive = 4;
+
+RAYLAB_CONST uint kPunctualPoint = 0;
+RAYLAB_CONST uint kPunctualDirectional = 1;
+RAYLAB_CONST uint kPunctualSpot = 2;
+
+struct PunctualData {
+    vec3 position;
+    uint kind;
+    vec3 direction;  // unit, the way the light travels
+    float threshold;
+    vec3 intensity;
+    uint alias;
+    float probability;
+    float spotScale;   // KHR_lights_punctual: clamp(cos * scale + offset)^2
+    float spotOffset;
+    uint padding;
+};
+RAYLAB_CHECK(PunctualData, 64);
+RAYLAB_CONST uint kWordsPunctual = 4;
+
+RAYLAB_SHARED_END
+#endif

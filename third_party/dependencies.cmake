@@ -1,0 +1,17 @@
+# How each dependency is found. All come from the system's packages: third_party/packages.txt, installed by install.sh.
+find_package(Vulkan REQUIRED)
+find_package(glm REQUIRED)
+find_package(assimp REQUIRED)
+find_package(OpenEXR CONFIG REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(TBB REQUIRED)
+find_program(GLSLANG NAMES glslangValidator glslang REQUIRED)
+
+add_library(stb INTERFACE)
+find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
+target_include_directories(stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
+if(NOT TARGET assimp::assimp)
+  add_library(assimp::assimp ALIAS assimp)
+endif()

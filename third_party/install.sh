@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Installs what third_party/packages.txt lists and this machine lacks; silent and instant when nothing is missing.
+# Exit code 3 where packages are missing and there is neither root nor sudo (prints the command instead).
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+minimum_mesa=24.1   # lavapipe offers acceleration structures from here on
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "raylab: no apt on this system; install by hand what $here/packages.txt lists" >&2
+  exit 0
+fi
+
+installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+available() { [ -n "$(apt-cache madison "$1" 2>/dev/null)" ]; }
+mesa_version() { dpkg-query -W -f='${Version}' mesa-vulkan-drivers 2>/dev/null || echo 0; }
+mesa_is_old() { dpkg --compare-versions "$(mesa_version)" lt "$minimum_mesa"; }
+is_bookworm() { . /etc/os-release && [ "${VERSION_CODENAME:-}" = bookworm ]; }
+
+# Lines of the list that no installed package satisfies.
+missing_lines() {
+  sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$here/packages.txt" | while IFS= read -r line; do
+    satisfied=no
+    for name in ${line//|/ }; do
+      if installed "$name"; then satisfied=yes; fi
+    done
+    [ "$satisfied" = yes ] || echo "$line"
+  done
+}
+
+# The mirror from which this machine already takes bookworm, as "URI KEYRING" (KEYRING may be empty).
+bookworm_mirror() {
+  awk '
+    function flush() { if (uris != "" && suites ~ /(^| )bookworm( |$)/) { split(uris, u, " "); print u[1], key; found = 1; exit } uris = ""; suites = ""; key = "" }
+    FILENAME ~ /\.sources$/ {
+      if ($0 ~ /^[[:space:]]*$/) flush()
+      else if ($1 == "URIs:") { sub(/^URIs:[[:space:]]*/, ""); uris = $0 }
+      else if ($1 == "Suites:") { sub(/^Suites:[[:space:]]*/, ""); suites = $0 }
+      else if ($1 == "Signed-By:") key = $2
+      next
+    }
+    $1 == "deb" {
+      key = ""; i = 2
+      if ($2 ~ /^\[/) { while (i <= NF) { if (match($i, /signed-by=[^] ]+/)) key = substr($i, RSTART + 10, RLENGTH - 10); if ($i ~ /\]$/) break; i++ } i++ }
+      if ($(i + 1) == "bookworm") { print $i, key; found = 1; exit }
+    }
+    END { if (!found) flush() }
+  ' /etc/apt/sources.list.d/*.sources /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | head -n 1
+}
+
+lines=$(missing_lines)
+need_backport=no
+if is_bookworm && mesa_is_old; then need_backport=yes; fi
+if [ -z "$lines" ] && [ "$need_backport" = no ]; then exit 0; fi
+
+as_root=()
+if [ "$(id -u)" != 0 ]; then
+  if command -v sudo >/dev/null && { sudo -n true 2>/dev/null || [ -t 0 ]; }; then
+    as_root=(sudo)
+  else
+    echo "raylab: packages are missing, and installing them needs root. Run this, then try again:" >&2
+    echo "  su -c '$here/install.sh'" >&2
+    exit 3
+  fi
+fi
+
+if [ "$need_backport" = yes ] && ! grep -rqs 'bookworm-backports' /etc/apt/sources.list /etc/apt/sources.list.d; then
+  read -r uri key < <(bookworm_mirror) || true
+  if [ -z "${uri:-}" ]; then
+    echo "raylab: no apt source names bookworm, so bookworm-backports (mesa-vulkan-drivers $minimum_mesa or newer) cannot be added" >&2
+    exit 3
+  fi
+  {
+    echo "Types: deb"
+    echo "URIs: $uri"
+    echo "Suites: bookworm-backports"
+    echo "Components: main"
+    if [ -n "${key:-}" ]; then echo "Signed-By: $key"; fi
+  } | "${as_root[@]}" tee /etc/apt/sources.list.d/raylab-backports.sources >/dev/null
+fi
+
+echo "raylab: installing packages (once)" >&2
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+names=()
+while IFS= read -r line; do
+  [ -n "$line" ] || continue
+  chosen=
+  for name in ${line//|/ }; do
+    if available "$name"; then chosen=$name; break; fi
+  done
+  if [ -z "$chosen" ]; then
+    echo "raylab: no apt source of this machine offers: $line" >&2
+    exit 3
+  fi
+  names+=("$chosen")
+done <<<"$lines"
+apt_install() { "${as_root[@]}" apt-get install -y -qq --no-install-recommends "$@" >&2; }
+if [ "$need_backport" = yes ]; then apt_install -t bookworm-backports mesa-vulkan-drivers; fi
+if [ "${#names[@]}" -gt 0 ]; then apt_install "${names[@]}"; fi

@@ -1,0 +1,110 @@
+#include <cstdio>
+#include <iostream>
+
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "engine/core/stopwatch.h"
+#include "engine/render/lighting.h"
+#include "engine/scene/import.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/options.h"
+#include "ui/cli/render_job.h"
+
+namespace raylab {
+namespace {
+
+constexpr const char* kDefaultScene = "courtyard";
+
+struct RenderOptions {
+    std::string scene = kDefaultScene;
+    std::string output;
+    std::string json;
+    bool quiet = false;
+    std::unique_ptr<SettingOptions> settings;
+};
+
+double raysPerSecond(const RenderResult& result) {
+    return result.times.render > 0.0 ? static_cast<double>(result.image.rays) / result.times.render : 0.0;
+}
+
+nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSettings& settings, const Device& device,
+                                  const RenderResult& r) {
+    nlohmann::ordered_json seconds{{"import", r.importSeconds},    {"build", r.times.build},   {"upload", r.times.upload},
+                                   {"compile", r.times.compile},   {"render", r.times.render}, {"total", r.totalSeconds},
+                                   {"device", r.times.device},     {"longestDispatch", r.times.longestDispatch}};
+    return {{"schema", "raylab.render/1"},
+            {"version", RAYLAB_VERSION},
+            {"scene", options.scene},
+            {"settings", settingsJson(settings)},
+            {"device", device.description().name},
+            {"seconds", seconds},
+            {"samples", r.samples},
+            {"rays", r.image.rays},
+            {"raysPerSecond", raysPerSecond(r)},
+            {"samplesPerSecond", r.times.render > 0.0 ? static_cast<double>(r.pixelSamples) / r.times.render : 0.0},
+            {"estimatedRelativeError", r.image.estimatedRelativeError},
+            {"nonFinitePixels", r.image.nonFinitePixels},
+            {"memoryBytes", {{"scene", r.sceneBytes}, {"traversal", r.traceBytes}, {"film", r.filmBytes}}},
+            {"stoppedBy", r.stoppedBy},
+            {"validationMessages", device.validationMessageCount()},
+            {"output", options.output}};
+}
+
+Metadata resultMetadata(const RenderOptions& options, const RenderSettings& settings, const Device& device, const RenderResult& r) {
+    Metadata metadata = settingsMetadata(settings);
+    metadata.emplace_back("scene", options.scene);
+    metadata.emplace_back("version", RAYLAB_VERSION);
+    metadata.emplace_back("device-name", device.description().name);
+    metadata.emplace_back("samples", std::to_string(r.samples));
+    return metadata;
+}
+
+std::string summary(const RenderOptions& options, const RenderResult& r) {
+    char text[256];
+    std::snprintf(text, sizeof(text), "%s  %u samples  %.2f s in all (import %.2f, build %.2f, upload %.2f, compile %.2f, render %.2f)  %.2f Mrays/s  noise %.2f%%",
+                  options.output.c_str(), r.samples, r.totalSeconds, r.importSeconds, r.times.build, r.times.upload,
+                  r.times.compile, r.times.render, raysPerSecond(r) * 1e-6, 100.0 * r.image.estimatedRelativeError);
+    return text;
+}
+
+ExitCode render(RenderOptions options) {
+    const Stopwatch total;
+    setQuiet(options.quiet);
+    const RenderSettings settings = options.settings->resolve();
+    const std::filesystem::path path = scenePath(options.scene);
+    if (options.output.empty()) options.output = (std::filesystem::path("out") / path.stem()).string() + ".png";
+    requireImageExtension(options.output);
+    requireReadableFile(path);
+    requireWritable(options.output);
+
+    Device device({settings.device, settings.validation});
+    Stopwatch watch;
+    Scene scene = importScene(path);
+    const double importSeconds = watch.restart();
+    settleEnvironment(scene, settings);
+    for (const std::string& warning : scene.warnings) logWarning(warning);
+    RenderResult result = renderUntilDone(device, scene, settings, options.quiet);
+    result.importSeconds = importSeconds;
+    writeRender(options.output, result, settings, resultMetadata(options, settings, device, result));
+    result.totalSeconds = total.seconds();
+    if (!options.json.empty()) writeJson(options.json, resultJson(options, settings, device, result));
+    if (options.json != "-") std::cout << summary(options, result) << "\n";
+    if (result.image.nonFinitePixels > 0)
+        logWarning(std::to_string(result.image.nonFinitePixels) + " pixels had samples that are not finite; these are left out");
+    return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, Command& chosen) {
+    CLI::App* command = app.add_subcommand("render", "render a scene to an image");
+    const auto options = std::make_shared<RenderOptions>();
+    command->add_option("scene", options->scene, "glTF, GLB, OBJ, PLY or STL; or the name of a scene of raylab's own")->capture_default_str();
+    command->add_option("-o,--output", options->output, "image to write: .png, .exr or .hdr [out/NAME.png]")->type_name("FILE");
+    command->add_option("--json", options->json, "write settings, times and results to a file, or - for standard output")->type_name("FILE");
+    command->add_flag("--quiet", options->quiet, "no progress; warnings only");
+    options->settings = std::make_unique<SettingOptions>(*command);
+    command->callback([&chosen, options] { chosen = [options] { return render(std::move(*options)); }; });
+}
+
+}  // namespace raylab

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+
+#include "engine/core/error.h"
+
+namespace raylab {
+
+/// What main runs after parsing: set by the subcommand that was named.
+using Command = std::function<ExitCode()>;
+
+/// Each adds its subcommand to `app`; when the user names it, `chosen` becomes the thing to run.
+void addRenderCommand(CLI::App& app, Command& chosen);
+void addInfoCommand(CLI::App& app, Command& chosen);
+void addDevicesCommand(CLI::App& app, Command& chosen);
+void addCompareCommand(CLI::App& app, Command& chosen);
+
+}  // namespace raylab

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/image/image_io.h"
+#include "engine/render/render_settings.h"
+
+namespace raylab {
+
+/// Texts of settings as the user wrote them, in order; resolved after parsing.
+class SettingOptions {
+public:
+    /// Adds an option for every row of the render settings table, and --set NAME=VALUE.
+    explicit SettingOptions(CLI::App& command);
+    /// Throws Error for a value that its setting does not take.
+    RenderSettings resolve() const;
+
+private:
+    std::vector<std::pair<std::string, std::string>> named_;
+    std::vector<std::string> sets_;
+};
+
+/// The file of a scene: a path, or the name of a scene that comes with raylab ("courtyard"). Throws Error.
+std::filesystem::path scenePath(const std::string& text);
+
+nlohmann::ordered_json settingsJson(const RenderSettings& settings);
+Metadata settingsMetadata(const RenderSettings& settings);
+
+/// Writes to a file, or to standard output for "-".
+void writeJson(const std::string& path, const nlohmann::ordered_json& json);
+
+}  // namespace raylab
