@@ -20,9 +20,7 @@ std::vector<glm::vec2> torusRoll(float radius, float lowY, float highY) {
     return profileArc({radius, lowY + r}, r, -90.0f, 90.0f, 8);
 }
 
-glm::vec2 onArc(float radius, float angle) {
-    return {radius * std::cos(angle), kSpringing + radius * std::sin(angle)};
-}
+glm::vec2 onArc(float radius, float angle) { return {radius * std::cos(angle), kSpringing + radius * std::sin(angle)}; }
 
 /// Where a ray from the arch's centre at `angle` leaves the bay's rectangle.
 glm::vec2 onBayOutline(float angle) {
@@ -30,6 +28,25 @@ glm::vec2 onBayOutline(float angle) {
     const float toSide = std::abs(d.x) > 1e-6f ? 0.5f * kBay / std::abs(d.x) : 1e9f;
     const float toTop = d.y > 1e-6f ? (kWallTop - kSpringing) / d.y : 1e9f;
     return glm::vec2(0.0f, kSpringing) + glm::min(toSide, toTop) * d;
+}
+
+/// Half a tapering barrel, its lower end at z = 0 with the clay's thickness to be seen: a cover that arches upwards or
+/// a channel that lies between two covers. `patch` is where on the texture it lies.
+Geometry roofTile(bool cover, glm::vec2 patch) {
+    constexpr float kLength = 0.46f;
+    constexpr float kClay = 0.016f;
+    const glm::vec2 radii = cover ? glm::vec2(0.098f, 0.078f) : glm::vec2(0.085f, 0.105f);
+    const auto onBarrel = [&](float u, float radius, float along) {
+        const float angle = kPi * (cover ? 1.0f - u : 1.0f + u);
+        return glm::vec3(radius * std::cos(angle), (cover ? 0.075f : 0.09f) + radius * std::sin(angle), -along);
+    };
+    Geometry tile = parametricSurface(
+        12, 1, [&](float u, float v) { return onBarrel(u, glm::mix(radii.x, radii.y, v), kLength * v); });
+    const float inward = cover ? -kClay : kClay;
+    append(tile, parametricSurface(12, 1,
+                                   [&](float u, float v) { return onBarrel(u, radii.x + inward * (1.0f - v), 0.0f); }));
+    for (glm::vec2& uv : tile.uvs) uv = patch + uv * glm::vec2(0.3f, kLength);
+    return tile;
 }
 
 }  // namespace
@@ -91,10 +108,14 @@ Geometry column() {
 
 Geometry pier() {
     const float w = 0.5f * kWallThickness + 0.03f;
-    const Profile profile = {line({w + 0.06f, 0.0f}, {w + 0.06f, 0.26f}), line({w + 0.06f, 0.26f}, {w, 0.32f}),
-                             line({w, 0.32f}, {w, 2.42f}),                line({w, 2.42f}, {w + 0.05f, 2.48f}),
-                             line({w + 0.05f, 2.48f}, {w + 0.05f, 2.55f}), line({w + 0.05f, 2.55f}, {w, 2.55f}),
-                             line({w, 2.55f}, {w, kWallTop}),             line({w, kWallTop}, {0.0f, kWallTop})};
+    const Profile profile = {line({w + 0.06f, 0.0f}, {w + 0.06f, 0.26f}),
+                             line({w + 0.06f, 0.26f}, {w, 0.32f}),
+                             line({w, 0.32f}, {w, 2.42f}),
+                             line({w, 2.42f}, {w + 0.05f, 2.48f}),
+                             line({w + 0.05f, 2.48f}, {w + 0.05f, 2.55f}),
+                             line({w + 0.05f, 2.55f}, {w, 2.55f}),
+                             line({w, 2.55f}, {w, kWallTop}),
+                             line({w, kWallTop}, {0.0f, kWallTop})};
     return rectangularLathe(profile, {0.0f, 0.0f});
 }
 
@@ -120,7 +141,8 @@ Geometry archWall() {
             g.triangles.emplace_back(base, base + (front ? 1 : 2), base + (front ? 2 : 1));
             g.triangles.emplace_back(base, base + (front ? 2 : 3), base + (front ? 3 : 2));
         }
-        appendQuad(g, {inner[0], z}, {inner[1], z}, {inner[1], -z}, {inner[0], -z}, {z, angles[i]}, {-z, angles[i + 1]});
+        appendQuad(g, {inner[0], z}, {inner[1], z}, {inner[1], -z}, {inner[0], -z}, {z, angles[i]},
+                   {-z, angles[i + 1]});
     }
     return g;
 }
@@ -175,8 +197,16 @@ Geometry steps() {
 Geometry baluster() {
     const Profile profile = {line({0.062f, 0.0f}, {0.062f, 0.05f}),
                              line({0.062f, 0.05f}, {0.040f, 0.065f}),
-                             {{0.034f, 0.08f}, {0.030f, 0.10f}, {0.036f, 0.14f}, {0.052f, 0.19f}, {0.062f, 0.24f},
-                              {0.060f, 0.29f}, {0.048f, 0.35f}, {0.036f, 0.42f}, {0.028f, 0.49f}, {0.026f, 0.53f}},
+                             {{0.034f, 0.08f},
+                              {0.030f, 0.10f},
+                              {0.036f, 0.14f},
+                              {0.052f, 0.19f},
+                              {0.062f, 0.24f},
+                              {0.060f, 0.29f},
+                              {0.048f, 0.35f},
+                              {0.036f, 0.42f},
+                              {0.028f, 0.49f},
+                              {0.026f, 0.53f}},
                              profileArc({0.028f, 0.545f}, 0.015f, -90.0f, 90.0f, 6),
                              line({0.026f, 0.56f}, {0.050f, 0.60f}),
                              line({0.062f, 0.60f}, {0.062f, 0.65f})};
@@ -187,7 +217,8 @@ Geometry balustradeRails() {
     const float length = kBay - 0.5f;
     Geometry g = box({-0.5f * length, 0.0f, -0.10f}, {0.5f * length, kBalusterFoot, 0.10f});
     const float y = kBalusterFoot + 0.65f;
-    const Profile rail = {line({-0.08f, y}, {0.08f, y}), line({0.08f, y}, {0.09f, y + 0.04f}),
+    const Profile rail = {line({-0.08f, y}, {0.08f, y}),
+                          line({0.08f, y}, {0.09f, y + 0.04f}),
                           profileArc({0.09f, y + 0.07f}, 0.03f, -90.0f, 90.0f, 8),
                           line({0.09f, y + 0.10f}, {-0.09f, y + 0.10f}),
                           profileArc({-0.09f, y + 0.07f}, 0.03f, 90.0f, 270.0f, 8),
@@ -197,29 +228,16 @@ Geometry balustradeRails() {
 }
 
 Geometry roofStrip(uint32_t variant) {
-    constexpr float kTile = 0.46f;
     constexpr float kStep = 0.38f;
     constexpr int kTiles = 10;
     Dice dice(200 + variant);
-    const glm::mat4 slope =
-        glm::rotate(glm::mat4(1.0f), glm::radians(kRoofPitchDegrees), glm::vec3(1.0f, 0.0f, 0.0f));
+    const glm::mat4 slope = glm::rotate(glm::mat4(1.0f), glm::radians(kRoofPitchDegrees), glm::vec3(1.0f, 0.0f, 0.0f));
     Geometry g;
     for (int i = 0; i < kTiles; ++i) {
         for (const bool cover : {false, true}) {
-            const float wide = cover ? 0.098f : 0.085f;
-            const float narrow = cover ? 0.078f : 0.105f;
-            const glm::vec2 patch(dice.roll(), dice.roll());
-            Geometry tile = parametricSurface(12, 2, [&](float u, float v) {
-                // Rows: the outer surface, then round the lower edge to a little way inside it.
-                const float angle = kPi * (cover ? 1.0f - u : 1.0f + u);
-                const float along = v < 0.25f ? 0.05f : (v < 0.75f ? 0.0f : kTile);
-                const float radius = glm::mix(wide, narrow, along / kTile) - (v < 0.25f ? 0.014f : 0.0f);
-                const float lift = cover ? 0.075f : 0.09f;
-                return glm::vec3(radius * std::cos(angle), lift + radius * std::sin(angle), -along);
-            });
-            for (glm::vec2& uv : tile.uvs) uv = patch * 3.0f + uv * glm::vec2(0.3f, kTile);
-            const glm::vec3 at(cover ? 0.0f : 0.5f * kRoofStripWidth, 0.014f * dice.roll(),
-                               -kStep * static_cast<float>(i) + dice.roll(-0.012f, 0.012f));
+            const Geometry tile = roofTile(cover, 3.0f * glm::vec2{dice.roll(), dice.roll()});
+            const glm::vec3 at{cover ? 0.0f : 0.5f * kRoofStripWidth, 0.014f * dice.roll(),
+                               -kStep * static_cast<float>(i) + dice.roll(-0.012f, 0.012f)};
             glm::mat4 pose = glm::translate(slope, at);
             pose = glm::rotate(pose, glm::radians(dice.roll(-1.6f, 1.6f)), glm::vec3(0.0f, 1.0f, 0.0f));
             // Each tile lies on the one below: a little less steep than the roof.
@@ -229,8 +247,6 @@ Geometry roofStrip(uint32_t variant) {
     return g;
 }
 
-Geometry ceilingBeam() {
-    return box({-0.09f, 0.0f, -0.5f * kGalleryDepth}, {0.09f, 0.2f, 0.5f * kGalleryDepth});
-}
+Geometry ceilingBeam() { return box({-0.09f, 0.0f, -0.5f * kGalleryDepth}, {0.09f, 0.2f, 0.5f * kGalleryDepth}); }
 
 }  // namespace raylab::assets

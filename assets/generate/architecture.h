@@ -5,8 +5,8 @@
 namespace raylab::assets {
 
 // The courtyard's module, in metres: every part below is made to it and stands on y = 0 at the middle of its bay.
-constexpr float kBay = 2.5f;            ///< distance between columns
-constexpr float kSpringing = 2.55f;     ///< top of the capitals, where arches start
+constexpr float kBay = 2.5f;         ///< distance between columns
+constexpr float kSpringing = 2.55f;  ///< top of the capitals, where arches start
 constexpr float kArchRadius = 0.98f;
 constexpr float kWallThickness = 0.46f;
 constexpr float kWallTop = 4.0f;

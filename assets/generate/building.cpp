@@ -14,13 +14,15 @@ struct Side {
     float yawDegrees;
     float distance;
     int bays;
-    bool gallery;       ///< covered walk behind the arches; otherwise a free-standing screen
-    float extendLow;    ///< how far the roof and walls run on at the low and high end of X
+    bool gallery;     ///< covered walk behind the arches; otherwise a free-standing screen
+    float extendLow;  ///< how far the roof and walls run on at the low and high end of X
     float extendHigh;
 };
 
 /// Middle of bay `i`, along the side.
-float bayMiddle(const Side& side, int i) { return (static_cast<float>(i) - 0.5f * static_cast<float>(side.bays - 1)) * kBay; }
+float bayMiddle(const Side& side, int i) {
+    return (static_cast<float>(i) - 0.5f * static_cast<float>(side.bays - 1)) * kBay;
+}
 
 glm::mat4 onSide(const Side& side, glm::vec3 local, float turnDegrees = 0.0f) {
     return place(glm::vec3(0.0f), side.yawDegrees) * place(local + glm::vec3(0.0f, 0.0f, -side.distance), turnDegrees);
@@ -42,7 +44,8 @@ struct ArcadeMeshes {
           doorFrame(b.stone("door frame", raylab::assets::doorFrame())),
           lantern(b.mesh("lantern", lanternMetal(), b.palette().iron)),
           lanternLight(b.mesh("lantern light", raylab::assets::lanternLight(), b.palette().lanternLight)) {
-        for (uint32_t i = 0; i < 4; ++i) roof.push_back(b.mesh("roof strip", roofStrip(i), b.palette().roofTile, kRoofMetres));
+        for (uint32_t i = 0; i < 4; ++i)
+            roof.push_back(b.mesh("roof strip", roofStrip(i), b.palette().roofTile, kRoofMetres));
     }
     uint32_t column, pier, wall, stones, cornice, steps, baluster, rails, beam, door, doorFrame, lantern, lanternLight;
     std::vector<uint32_t> roof;
@@ -100,17 +103,19 @@ void putWalk(Builder& b, const Side& side) {
     Geometry floorSlab;
     appendQuad(floorSlab, {low, floor, -front}, {high, floor, -front}, {high, floor, back}, {low, floor, back},
                {low, -front}, {high, back});
-    b.put("walk floor", b.mesh("walk floor", floorSlab, b.palette().terracottaFloor, kTerracottaMetres), onSide(side, {}));
+    b.put("walk floor", b.mesh("walk floor", floorSlab, b.palette().terracottaFloor, kTerracottaMetres),
+          onSide(side, {}));
     const Geometry wall = box({low, floor, back - 0.4f}, {high, top, back});
     b.put("walk wall", b.mesh("walk wall", wall, b.palette().plaster, kPlasterMetres), onSide(side, {}));
     const Geometry ceiling = box({low, top - 0.05f, back}, {high, top, -front});
     b.put("walk ceiling", b.mesh("walk ceiling", ceiling, b.palette().wood, kWoodMetres), onSide(side, {}));
     const float rise = (kGalleryDepth + 0.9f) * std::tan(glm::radians(kRoofPitchDegrees));
-    const glm::vec2 wedge[3] = {{-0.35f, top + 0.05f}, {kGalleryDepth + 0.55f, top + 0.05f}, {kGalleryDepth + 0.55f, top + 0.05f + rise}};
+    const glm::vec2 wedge[3] = {
+        {-0.35f, top + 0.05f}, {kGalleryDepth + 0.55f, top + 0.05f}, {kGalleryDepth + 0.55f, top + 0.05f + rise}};
     const Geometry body = extrude(wedge, low, high, 0.01f);
-    b.put("roof body", b.mesh("roof body", body, b.palette().plaster, kPlasterMetres), onSide(side, {}, 90.0f) * place({0.0f, 0.0f, 0.0f}));
+    b.put("roof body", b.mesh("roof body", body, b.palette().plaster, kPlasterMetres),
+          onSide(side, {}, 90.0f) * place({0.0f, 0.0f, 0.0f}));
 }
-
 
 void putDoorsAndLanterns(Builder& b, const ArcadeMeshes& m, const Side& side) {
     const float back = -kGalleryDepth - 0.5f * kWallThickness;

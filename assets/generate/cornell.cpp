@@ -7,22 +7,22 @@
 namespace raylab::assets {
 namespace {
 
-// Measured reflectances and emission, from the Cornell Box Data page. Reflectances: the published 4 nm samples, weighted
-// 1:2:1 into one value every 8 nm, which moves no colour below by more than 0.0015.
+// Measured reflectances and emission, from the Cornell Box Data page. Reflectances: the published 4 nm samples,
+// weighted 1:2:1 into one value every 8 nm, which moves no colour below by more than 0.0015.
 constexpr float kLightValues[] = {0.0f, 8.0f, 15.6f, 18.4f};
 constexpr float kLightReflectance = 0.78f;
-constexpr float kWhiteValues[] = {
-    0.377f, 0.543f, 0.660f, 0.706f, 0.716f, 0.740f, 0.751f, 0.772f, 0.753f, 0.743f, 0.744f, 0.753f, 0.747f,
-    0.737f, 0.736f, 0.726f, 0.728f, 0.733f, 0.745f, 0.730f, 0.727f, 0.723f, 0.753f, 0.751f, 0.736f, 0.738f,
-    0.744f, 0.750f, 0.735f, 0.738f, 0.716f, 0.724f, 0.723f, 0.711f, 0.747f, 0.750f, 0.729f, 0.737f};
-constexpr float kRedValues[] = {
-    0.042f, 0.049f, 0.050f, 0.053f, 0.056f, 0.058f, 0.060f, 0.061f, 0.062f, 0.061f, 0.060f, 0.058f, 0.058f,
-    0.056f, 0.057f, 0.057f, 0.058f, 0.058f, 0.060f, 0.062f, 0.066f, 0.073f, 0.090f, 0.125f, 0.198f, 0.294f,
-    0.399f, 0.483f, 0.553f, 0.607f, 0.619f, 0.621f, 0.637f, 0.628f, 0.627f, 0.638f, 0.648f, 0.638f};
-constexpr float kGreenValues[] = {
-    0.093f, 0.097f, 0.097f, 0.096f, 0.095f, 0.097f, 0.098f, 0.103f, 0.107f, 0.112f, 0.126f, 0.162f, 0.232f,
-    0.340f, 0.431f, 0.471f, 0.475f, 0.449f, 0.425f, 0.375f, 0.334f, 0.290f, 0.265f, 0.229f, 0.188f, 0.160f,
-    0.141f, 0.131f, 0.123f, 0.121f, 0.115f, 0.117f, 0.118f, 0.123f, 0.133f, 0.143f, 0.149f, 0.156f};
+constexpr float kWhiteValues[] = {0.377f, 0.543f, 0.660f, 0.706f, 0.716f, 0.740f, 0.751f, 0.772f, 0.753f, 0.743f,
+                                  0.744f, 0.753f, 0.747f, 0.737f, 0.736f, 0.726f, 0.728f, 0.733f, 0.745f, 0.730f,
+                                  0.727f, 0.723f, 0.753f, 0.751f, 0.736f, 0.738f, 0.744f, 0.750f, 0.735f, 0.738f,
+                                  0.716f, 0.724f, 0.723f, 0.711f, 0.747f, 0.750f, 0.729f, 0.737f};
+constexpr float kRedValues[] = {0.042f, 0.049f, 0.050f, 0.053f, 0.056f, 0.058f, 0.060f, 0.061f, 0.062f, 0.061f,
+                                0.060f, 0.058f, 0.058f, 0.056f, 0.057f, 0.057f, 0.058f, 0.058f, 0.060f, 0.062f,
+                                0.066f, 0.073f, 0.090f, 0.125f, 0.198f, 0.294f, 0.399f, 0.483f, 0.553f, 0.607f,
+                                0.619f, 0.621f, 0.637f, 0.628f, 0.627f, 0.638f, 0.648f, 0.638f};
+constexpr float kGreenValues[] = {0.093f, 0.097f, 0.097f, 0.096f, 0.095f, 0.097f, 0.098f, 0.103f, 0.107f, 0.112f,
+                                  0.126f, 0.162f, 0.232f, 0.340f, 0.431f, 0.471f, 0.475f, 0.449f, 0.425f, 0.375f,
+                                  0.334f, 0.290f, 0.265f, 0.229f, 0.188f, 0.160f, 0.141f, 0.131f, 0.123f, 0.121f,
+                                  0.115f, 0.117f, 0.118f, 0.123f, 0.133f, 0.143f, 0.149f, 0.156f};
 
 constexpr Spectrum kLight{400.0f, 100.0f, kLightValues};
 

@@ -18,6 +18,7 @@ constexpr glm::vec3 kPoolCentre(0.0f, 0.0f, 0.7f);
 constexpr glm::vec3 kStatueFoot(0.0f, 1.5f, -3.2f);
 constexpr float kAspect = 16.0f / 9.0f;
 
+/// Assimp finds a camera's node by name: no other node may bear a camera's name, so the statue's is "victory".
 void addPool(Builder& b, const Geometry& statue) {
     b.put("pool curb", b.stone("pool curb", poolCurb(kPool)), place(kPoolCentre));
     Geometry water;
@@ -26,7 +27,7 @@ void addPool(Builder& b, const Geometry& statue) {
     b.put("water", b.mesh("water", water, b.palette().water, kWaterMetres),
           place(kPoolCentre + glm::vec3(0.0f, kPoolRim - 0.07f, 0.0f)));
     b.put("pedestal", b.stone("pedestal", pedestal(kStatueFoot.y, 0.52f)), place({kStatueFoot.x, 0.0f, kStatueFoot.z}));
-    b.put("statue", b.mesh("statue", statue, b.palette().marble, kMarbleMetres), place(kStatueFoot, 24.0f));
+    b.put("victory", b.mesh("victory", statue, b.palette().marble, kMarbleMetres), place(kStatueFoot, 24.0f));
 }
 
 void addPlants(Builder& b) {
@@ -66,8 +67,10 @@ void addLandscape(Builder& b) {
     const Plant tree = cypress(511);
     const uint32_t trunk = b.mesh("cypress trunk", tree.wood, p.bark);
     const uint32_t leaves = b.mesh("cypress leaves", tree.leaves, p.cypressLeaf);
-    const glm::vec4 places[] = {{11.5f, -0.5f, -15.0f, 9.5f}, {14.0f, -0.8f, -11.5f, 8.0f}, {10.5f, -0.4f, -3.0f, 7.0f}, {12.0f, -0.5f, 1.5f, 8.5f},
-                                {4.0f, -0.2f, -17.5f, 11.0f}, {1.2f, -0.2f, -18.5f, 9.0f}, {-15.0f, -0.5f, -4.0f, 10.0f}, {17.0f, -1.2f, -22.0f, 10.0f}};
+    const glm::vec4 places[] = {{11.5f, -0.5f, -15.0f, 9.5f},  {14.0f, -0.8f, -11.5f, 8.0f},
+                                {10.5f, -0.4f, -3.0f, 7.0f},   {12.0f, -0.5f, 1.5f, 8.5f},
+                                {4.0f, -0.2f, -17.5f, 11.0f},  {1.2f, -0.2f, -18.5f, 9.0f},
+                                {-15.0f, -0.5f, -4.0f, 10.0f}, {17.0f, -1.2f, -22.0f, 10.0f}};
     Dice dice(513);
     for (const glm::vec4& at : places) {
         const glm::mat4 pose = place(glm::vec3(at), dice.roll(0.0f, 360.0f), {1.1f * at.w, at.w, 1.1f * at.w});
@@ -91,8 +94,10 @@ void addTower(Builder& b, uint32_t archWallMesh, uint32_t archStonesMesh, uint32
 
 void addStillLife(Builder& b) {
     const Palette& p = b.palette();
-    const glm::mat4 table = place({3.62f, 0.0f, 6.3f}, -8.0f);
-    const auto onTable = [&](float x, float z, float yawDegrees = 0.0f) { return table * place({x, kTableHeight, z}, yawDegrees); };
+    const glm::mat4 table = place({3.95f, 0.0f, 5.95f}, -6.0f);
+    const auto onTable = [&](float x, float z, float yawDegrees = 0.0f) {
+        return table * place({x, kTableHeight, z}, yawDegrees);
+    };
     constexpr float kBall = 0.15f;
     constexpr float kSmallBall = 0.10f;
     const float lift = 0.012f + std::sqrt(0.75f);
@@ -100,13 +105,14 @@ void addStillLife(Builder& b) {
     b.put("armillary", b.mesh("armillary", armillary(), p.gold), onTable(-0.50f, -0.06f, 30.0f));
     b.put("glass ball", b.mesh("glass ball", sphere(kBall, 128, 64), p.clearGlass),
           onTable(-0.03f, 0.13f) * place({0.0f, kBall * lift, 0.0f}));
-    b.put("ball rest", b.mesh("ball rest", ballRest(kBall), p.gold), onTable(-0.03f, 0.13f) * place({0.0f, 0.012f, 0.0f}));
+    b.put("ball rest", b.mesh("ball rest", ballRest(kBall), p.gold),
+          onTable(-0.03f, 0.13f) * place({0.0f, 0.012f, 0.0f}));
     b.put("glass vase", b.mesh("glass vase", glassVase(), p.tintedGlass), onTable(0.27f, -0.15f));
     b.put("copper ball", b.mesh("copper ball", sphere(kSmallBall, 96, 48), p.copper),
           onTable(0.55f, 0.10f) * place({0.0f, kSmallBall, 0.0f}));
     const uint32_t jar = b.mesh("amphora", amphora(), p.terracotta);
-    b.put("amphora", jar, place({-4.9f, 0.0f, 5.6f}, 20.0f));
-    b.put("amphora", jar, place({-5.2f, 0.0f, 6.25f}, 70.0f, glm::vec3(0.8f)));
+    b.put("amphora", jar, place({-5.35f, 0.0f, 4.95f}, 20.0f));
+    b.put("amphora", jar, place({-5.0f, 0.0f, 5.55f}, 70.0f, glm::vec3(0.8f)));
 }
 
 }  // namespace
@@ -114,13 +120,13 @@ void addStillLife(Builder& b) {
 GltfWriter makeCourtyard() {
     GltfWriter gltf("Courtyard");
     gltf.setExtras(
-        {{"raylab", {{"sun", {{"elevation", 38.0}, {"azimuth", 106.0}, {"turbidity", 2.5}, {"scale", 1.0}}}}}});
+        {{"raylab", {{"sun", {{"elevation", 38.0}, {"azimuth", 104.0}, {"turbidity", 2.5}, {"scale", 1.0}}}}}});
     Palette palette;
     Geometry statue;
     tbb::parallel_invoke([&] { statue = makeStatue(); }, [&] { palette = addPalette(gltf); });
     Builder builder(gltf, palette);
-    gltf.addCamera("courtyard", {2.75f, 1.45f, 9.5f}, {2.75f, 1.85f, 0.0f}, glm::radians(39.0f), kAspect);
-    gltf.addCamera("statue", {2.2f, 2.4f, 2.2f}, {0.0f, 3.0f, -3.4f}, glm::radians(32.0f), kAspect);
+    gltf.addCamera("courtyard", {2.7f, 1.45f, 9.05f}, {3.1f, 1.82f, 0.0f}, glm::radians(39.0f), kAspect);
+    gltf.addCamera("statue", {1.5f, 2.1f, 2.3f}, {0.05f, 3.25f, -3.2f}, glm::radians(36.0f), kAspect);
     gltf.addCamera("arcade", {-7.9f, 1.9f, 9.3f}, {-7.2f, 1.8f, 0.0f}, glm::radians(48.0f), kAspect);
     const BuildingMeshes shared = addBuilding(builder);
     addTower(builder, shared.archWall, shared.archStones, shared.pier);

@@ -48,14 +48,7 @@ json extensionsToJson(const MaterialSpec& spec) {
         extensions["KHR_materials_transmission"] = {{"transmissionFactor", spec.transmission}};
         extensions["KHR_materials_ior"] = {{"ior", spec.ior}};
     }
-    if (spec.thickness > 0.0f) {
-        json volume = {{"thicknessFactor", spec.thickness}};
-        if (spec.attenuationDistance > 0.0f) {
-            volume["attenuationDistance"] = spec.attenuationDistance;
-            volume["attenuationColor"] = toJson(spec.attenuationColor);
-        }
-        extensions["KHR_materials_volume"] = volume;
-    }
+    if (spec.thickness > 0.0f) extensions["KHR_materials_volume"] = {{"thicknessFactor", spec.thickness}};
     if (spec.specular < 1.0f) extensions["KHR_materials_specular"] = {{"specularFactor", spec.specular}};
     return extensions;
 }
@@ -150,11 +143,10 @@ uint32_t GltfWriter::addMaterial(const MaterialSpec& spec) {
 uint32_t GltfWriter::addMesh(const std::string& name, const Geometry& geometry, uint32_t material) {
     const uint32_t positions = addVec3Accessor(geometry.positions, true);
     const uint32_t normals = addVec3Accessor(geometry.normals, false);
-    const uint32_t uvView =
-        addBufferView(geometry.uvs.data(), geometry.uvs.size() * sizeof(glm::vec2), kArrayBuffer);
+    const uint32_t uvView = addBufferView(geometry.uvs.data(), geometry.uvs.size() * sizeof(glm::vec2), kArrayBuffer);
     const uint32_t uvs = addAccessor(uvView, kFloat, "VEC2", geometry.uvs.size());
-    const uint32_t indexView = addBufferView(geometry.triangles.data(),
-                                             geometry.triangles.size() * sizeof(glm::uvec3), kElementArrayBuffer);
+    const uint32_t indexView =
+        addBufferView(geometry.triangles.data(), geometry.triangles.size() * sizeof(glm::uvec3), kElementArrayBuffer);
     const uint32_t indices = addAccessor(indexView, kUint32, "SCALAR", 3 * geometry.triangles.size());
     const json primitive = {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
                             {"indices", indices},
@@ -172,13 +164,11 @@ void GltfWriter::addInstance(const std::string& name, uint32_t mesh, const glm::
 
 void GltfWriter::addCamera(const std::string& name, glm::vec3 eye, glm::vec3 target, float fovYRadians, float aspect) {
     const float distance = glm::distance(eye, target);
-    document_["cameras"].push_back({{"name", name},
-                                    {"type", "perspective"},
-                                    {"perspective",
-                                     {{"yfov", fovYRadians},
-                                      {"aspectRatio", aspect},
-                                      {"znear", 0.01f * distance},
-                                      {"zfar", 100.0f * distance}}}});
+    document_["cameras"].push_back(
+        {{"name", name},
+         {"type", "perspective"},
+         {"perspective",
+          {{"yfov", fovYRadians}, {"aspectRatio", aspect}, {"znear", 0.01f * distance}, {"zfar", 100.0f * distance}}}});
     const glm::mat4 cameraToWorld = glm::inverse(glm::lookAt(eye, target, glm::vec3(0.0f, 1.0f, 0.0f)));
     document_["nodes"].push_back(
         {{"name", name}, {"camera", document_["cameras"].size() - 1}, {"matrix", matrixToJson(cameraToWorld)}});

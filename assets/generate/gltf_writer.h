@@ -22,19 +22,17 @@ struct MaterialSpec {
     std::optional<uint32_t> metallicRoughnessTexture = {};
     std::optional<uint32_t> normalTexture = {};
     float normalScale = 1.0f;
-    glm::vec3 emission{0.0f};             ///< radiance; beyond 1 by KHR_materials_emissive_strength
-    std::optional<float> alphaCutoff = {};     ///< alpha mask
+    glm::vec3 emission{0.0f};               ///< radiance; beyond 1 by KHR_materials_emissive_strength
+    std::optional<float> alphaCutoff = {};  ///< alpha mask
     bool doubleSided = false;
-    float transmission = 0.0f;            ///< KHR_materials_transmission
-    float ior = 1.5f;                     ///< KHR_materials_ior
-    float thickness = 0.0f;               ///< metres; above 0 the surface bounds a volume (KHR_materials_volume)
-    glm::vec3 attenuationColor{1.0f};     ///< colour left of white light after `attenuationDistance`
-    float attenuationDistance = 0.0f;     ///< metres; 0: no absorption
-    float specular = 1.0f;                ///< KHR_materials_specular
+    float transmission = 0.0f;  ///< KHR_materials_transmission
+    float ior = 1.5f;           ///< KHR_materials_ior
+    float thickness = 0.0f;     ///< metres; above 0 the surface bounds a volume (KHR_materials_volume)
+    float specular = 1.0f;      ///< KHR_materials_specular
 };
 
-/// Collects one scene and writes it as a self-contained GLB (glTF 2.0, section 4.4). Meshes are stored once; an instance
-/// is a node. Vertices and indices are tightly packed float32 and uint32.
+/// Collects one scene and writes it as a self-contained GLB (glTF 2.0, section 4.4). Meshes are stored once; an
+/// instance is a node. Vertices and indices are tightly packed float32 and uint32.
 class GltfWriter {
 public:
     explicit GltfWriter(std::string sceneName);

@@ -119,7 +119,9 @@ private:
     /// Around one crossed edge, counter-clockwise seen from the edge's far end; split along the shorter diagonal.
     void quad(bool insideFirst, std::array<uint32_t, 4> q) {
         if (!insideFirst) std::swap(q[1], q[3]);
-        const auto distance = [&](uint32_t a, uint32_t b) { return glm::distance(mesh_.positions[a], mesh_.positions[b]); };
+        const auto distance = [&](uint32_t a, uint32_t b) {
+            return glm::distance(mesh_.positions[a], mesh_.positions[b]);
+        };
         const uint32_t first = distance(q[0], q[2]) <= distance(q[1], q[3]) ? 0 : 1;
         mesh_.triangles.emplace_back(q[first], q[first + 1], q[first + 2]);
         mesh_.triangles.emplace_back(q[first], q[first + 2], q[(first + 3) % 4]);

@@ -11,11 +11,13 @@ namespace raylab::assets {
 Geometry hills() {
     return parametricSurface(160, 60, [](float u, float v) {
         const float angle = -glm::two_pi<float>() * u;
-        const float radius = 9.0f * std::pow(100.0f, v);
+        const float radius = 9.0f * std::pow(30.0f, v);
         const glm::vec2 p = radius * glm::vec2(std::cos(angle), std::sin(angle));
-        const float wave = noise3(glm::vec3(p.x, 0.0f, p.y) / 90.0f, 401) + 0.5f * noise3(glm::vec3(p.x, 9.0f, p.y) / 37.0f, 402);
-        const float rise = glm::smoothstep(40.0f, 700.0f, radius) * 55.0f - 4.0f * glm::smoothstep(12.0f, 40.0f, radius);
-        const float height = -0.1f + rise + wave * 26.0f * glm::smoothstep(30.0f, 400.0f, radius);
+        const float wave =
+            noise3(glm::vec3(p.x, 0.0f, p.y) / 55.0f, 401) + 0.5f * noise3(glm::vec3(p.x, 9.0f, p.y) / 23.0f, 402);
+        const float rise =
+            20.0f * glm::smoothstep(30.0f, 260.0f, radius) - 3.0f * glm::smoothstep(12.0f, 40.0f, radius);
+        const float height = -0.1f + rise + 8.0f * wave * glm::smoothstep(25.0f, 150.0f, radius);
         return glm::vec3(p.x, height, p.y);
     });
 }
@@ -38,7 +40,8 @@ Geometry towerWalls() {
 Geometry towerRoof() {
     const float w = 0.5f * kBay + 0.5f * kWallThickness;
     const float eave = kBelfryFloor + kWallTop + 0.10f;
-    return rectangularLathe({{{0.0f, eave}, {w + 0.36f, eave}}, {{w + 0.36f, eave}, {0.0f, eave + 1.15f}}}, {0.0f, 0.0f});
+    return rectangularLathe({{{0.0f, eave}, {w + 0.36f, eave}}, {{w + 0.36f, eave}, {0.0f, eave + 1.15f}}},
+                            {0.0f, 0.0f});
 }
 
 }  // namespace raylab::assets

@@ -16,20 +16,6 @@ glm::vec2 profileNormal(const std::vector<glm::vec2>& stretch, size_t i) {
     return glm::normalize(glm::vec2(along.y, -along.x));
 }
 
-/// Triangles between two rows of `count` vertices each; those with two equal corners (a pole) are left out.
-void stitchRows(Geometry& g, uint32_t lower, uint32_t upper, uint32_t count) {
-    const auto add = [&g](uint32_t a, uint32_t b, uint32_t c) {
-        const glm::vec3 pa = g.positions[a];
-        const glm::vec3 pb = g.positions[b];
-        const glm::vec3 pc = g.positions[c];
-        if (pa != pb && pb != pc && pc != pa) g.triangles.emplace_back(a, b, c);
-    };
-    for (uint32_t i = 0; i + 1 < count; ++i) {
-        add(lower + i, lower + i + 1, upper + i + 1);
-        add(lower + i, upper + i + 1, upper + i);
-    }
-}
-
 /// Runs a profile through `row(point, normal, arcLength)`, which appends one row of `rowLength` vertices.
 template <typename Row>
 void sweepProfile(Geometry& g, const Profile& profile, uint32_t rowLength, Row&& row) {
@@ -57,6 +43,17 @@ float meanRadius(const Profile& profile) {
 }
 
 }  // namespace
+
+void stitchRows(Geometry& g, uint32_t lower, uint32_t upper, uint32_t count) {
+    const auto add = [&g](uint32_t a, uint32_t b, uint32_t c) {
+        const glm::vec3 areaVector = glm::cross(g.positions[b] - g.positions[a], g.positions[c] - g.positions[a]);
+        if (glm::length(areaVector) > 1e-12f) g.triangles.emplace_back(a, b, c);
+    };
+    for (uint32_t i = 0; i + 1 < count; ++i) {
+        add(lower + i, lower + i + 1, upper + i + 1);
+        add(lower + i, upper + i + 1, upper + i);
+    }
+}
 
 void append(Geometry& whole, const Geometry& part, const glm::mat4& transform) {
     const auto base = static_cast<uint32_t>(whole.positions.size());

@@ -25,7 +25,8 @@ void append(Geometry& whole, const Geometry& part, const glm::mat4& transform = 
 
 void scaleUvs(Geometry& geometry, glm::vec2 factor);
 
-/// uv = two coordinates of the position along the oblique unit axes `uAxis`, `vAxis`: a texture that runs through the solid.
+/// uv = two coordinates of the position along the oblique unit axes `uAxis`, `vAxis`: a texture that runs through the
+/// solid.
 void projectUvs(Geometry& geometry, glm::vec3 uAxis, glm::vec3 vAxis);
 
 /// Area-weighted vertex normals from the triangles.
@@ -35,6 +36,10 @@ void smoothNormals(Geometry& geometry);
 void appendQuad(Geometry& whole, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, glm::vec2 uvA, glm::vec2 uvC);
 
 Geometry box(glm::vec3 low, glm::vec3 high);
+
+/// Triangles between two rows of `count` vertices that start at `lower` and `upper`; those without area (at a pole) are
+/// left out. Outside is where `lower` runs to the right below `upper`.
+void stitchRows(Geometry& g, uint32_t lower, uint32_t upper, uint32_t count);
 
 /// A vertex grid of (columns + 1) x (rows + 1) points from `point(u, v)`, u and v in [0, 1], with smooth normals and
 /// uv = (u, v). Outside is the side from which u grows to the right and v upwards.
@@ -77,14 +82,7 @@ Geometry parametricSurface(uint32_t columns, uint32_t rows, Point&& point) {
             g.uvs.push_back(uv);
         }
     }
-    for (uint32_t j = 0; j < rows; ++j) {
-        for (uint32_t i = 0; i < columns; ++i) {
-            const uint32_t a = j * (columns + 1) + i;
-            const uint32_t d = a + columns + 1;
-            g.triangles.emplace_back(a, a + 1, d + 1);
-            g.triangles.emplace_back(a, d + 1, d);
-        }
-    }
+    for (uint32_t j = 0; j < rows; ++j) stitchRows(g, j * (columns + 1), (j + 1) * (columns + 1), columns + 1);
     smoothNormals(g);
     return g;
 }

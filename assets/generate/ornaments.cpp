@@ -56,12 +56,20 @@ Geometry plantPot() {
 Geometry potEarth() { return lathe({{{0.30f, 0.535f}, {0.15f, 0.56f}, {0.0f, 0.57f}}}, 24); }
 
 Geometry amphora() {
-    const Profile profile = {
-        line({0.0f, 0.0f}, {0.12f, 0.0f}),
-        curve({{0.12f, 0.0f}, {0.125f, 0.03f}, {0.11f, 0.07f}, {0.20f, 0.30f}, {0.265f, 0.55f}, {0.25f, 0.74f},
-               {0.15f, 0.90f}, {0.095f, 0.98f}, {0.09f, 1.08f}, {0.13f, 1.13f}}, 6),
-        line({0.13f, 1.13f}, {0.13f, 1.16f}), line({0.13f, 1.16f}, {0.10f, 1.16f}),
-        curve({{0.10f, 1.16f}, {0.07f, 1.07f}, {0.07f, 0.98f}}, 4)};
+    const Profile profile = {line({0.0f, 0.0f}, {0.12f, 0.0f}),
+                             curve({{0.12f, 0.0f},
+                                    {0.125f, 0.03f},
+                                    {0.11f, 0.07f},
+                                    {0.20f, 0.30f},
+                                    {0.265f, 0.55f},
+                                    {0.25f, 0.74f},
+                                    {0.15f, 0.90f},
+                                    {0.095f, 0.98f},
+                                    {0.09f, 1.08f},
+                                    {0.13f, 1.13f}},
+                                   6),
+                             line({0.13f, 1.13f}, {0.13f, 1.16f}), line({0.13f, 1.16f}, {0.10f, 1.16f}),
+                             curve({{0.10f, 1.16f}, {0.07f, 1.07f}, {0.07f, 0.98f}}, 4)};
     Geometry g = lathe(profile, 48);
     for (const float side : {-1.0f, 1.0f}) {
         std::vector<glm::vec3> path;
@@ -77,20 +85,31 @@ Geometry amphora() {
 }
 
 Geometry glassVase() {
-    const Profile profile = {line({0.0f, 0.0f}, {0.085f, 0.0f}),
-                             curve({{0.085f, 0.0f}, {0.09f, 0.012f}, {0.075f, 0.03f}, {0.105f, 0.10f}, {0.135f, 0.19f},
-                                    {0.115f, 0.30f}, {0.062f, 0.40f}, {0.055f, 0.45f}, {0.075f, 0.50f},
-                                    {0.098f, 0.525f}, {0.100f, 0.532f}, {0.096f, 0.534f}, {0.070f, 0.506f},
-                                    {0.049f, 0.45f}, {0.055f, 0.40f}, {0.107f, 0.30f}, {0.127f, 0.19f},
-                                    {0.096f, 0.10f}, {0.055f, 0.055f}, {0.0f, 0.045f}}, 8)};
+    const Profile profile = {
+        line({0.0f, 0.0f}, {0.085f, 0.0f}),
+        curve({{0.085f, 0.0f},   {0.09f, 0.012f},  {0.075f, 0.03f},  {0.105f, 0.10f},  {0.135f, 0.19f},
+               {0.115f, 0.30f},  {0.062f, 0.40f},  {0.055f, 0.45f},  {0.075f, 0.50f},  {0.098f, 0.525f},
+               {0.100f, 0.532f}, {0.096f, 0.534f}, {0.070f, 0.506f}, {0.049f, 0.45f},  {0.055f, 0.40f},
+               {0.107f, 0.30f},  {0.127f, 0.19f},  {0.096f, 0.10f},  {0.055f, 0.055f}, {0.0f, 0.045f}},
+              8)};
     return lathe(profile, 96);
 }
 
 Geometry footedBowl() {
-    const Profile profile = {line({0.0f, 0.0f}, {0.10f, 0.0f}),
-                             curve({{0.10f, 0.0f}, {0.10f, 0.012f}, {0.05f, 0.03f}, {0.030f, 0.06f}, {0.045f, 0.085f},
-                                    {0.14f, 0.115f}, {0.215f, 0.175f}, {0.225f, 0.20f}, {0.218f, 0.203f},
-                                    {0.205f, 0.178f}, {0.13f, 0.126f}, {0.05f, 0.105f}, {0.0f, 0.102f}}, 8)};
+    const Profile profile = {line({0.0f, 0.0f}, {0.10f, 0.0f}), curve({{0.10f, 0.0f},
+                                                                       {0.10f, 0.012f},
+                                                                       {0.05f, 0.03f},
+                                                                       {0.030f, 0.06f},
+                                                                       {0.045f, 0.085f},
+                                                                       {0.14f, 0.115f},
+                                                                       {0.215f, 0.175f},
+                                                                       {0.225f, 0.20f},
+                                                                       {0.218f, 0.203f},
+                                                                       {0.205f, 0.178f},
+                                                                       {0.13f, 0.126f},
+                                                                       {0.05f, 0.105f},
+                                                                       {0.0f, 0.102f}},
+                                                                      8)};
     return lathe(profile, 96);
 }
 
@@ -99,18 +118,26 @@ Geometry armillary() {
     const glm::mat4 at = glm::translate(glm::mat4(1.0f), centre);
     const glm::vec3 xAxis(1.0f, 0.0f, 0.0f);
     const glm::vec3 zAxis(0.0f, 0.0f, 1.0f);
-    const Profile stand = {line({0.0f, 0.0f}, {0.125f, 0.0f}),
-                           curve({{0.125f, 0.0f}, {0.128f, 0.02f}, {0.10f, 0.04f}, {0.045f, 0.06f}, {0.028f, 0.09f},
-                                  {0.045f, 0.13f}, {0.048f, 0.15f}, {0.022f, 0.18f}, {0.016f, 0.22f}, {0.02f, 0.26f},
-                                  {0.0f, 0.285f}}, 6)};
+    const Profile stand = {line({0.0f, 0.0f}, {0.125f, 0.0f}), curve({{0.125f, 0.0f},
+                                                                      {0.128f, 0.02f},
+                                                                      {0.10f, 0.04f},
+                                                                      {0.045f, 0.06f},
+                                                                      {0.028f, 0.09f},
+                                                                      {0.045f, 0.13f},
+                                                                      {0.048f, 0.15f},
+                                                                      {0.022f, 0.18f},
+                                                                      {0.016f, 0.22f},
+                                                                      {0.02f, 0.26f},
+                                                                      {0.0f, 0.285f}},
+                                                                     6)};
     Geometry g = lathe(stand, 48);
-    const glm::mat4 tilted = at * turned(23.4f, zAxis);  // the Earth's axis
-    append(g, torus(0.250f, 0.006f, 0.016f, 128, 10), at * turned(90.0f, xAxis));           // meridian
-    append(g, torus(0.265f, 0.018f, 0.005f, 128, 10), at);                                  // horizon
-    append(g, torus(0.232f, 0.005f, 0.013f, 128, 10), tilted);                              // equator
-    append(g, torus(0.222f, 0.004f, 0.022f, 128, 10), tilted * turned(23.4f, xAxis));       // ecliptic
-    append(g, torus(0.232f, 0.005f, 0.008f, 128, 10), tilted * turned(90.0f, zAxis));       // colure
-    for (const float side : {-1.0f, 1.0f}) {                                                // tropics
+    const glm::mat4 tilted = at * turned(23.4f, zAxis);                                // the Earth's axis
+    append(g, torus(0.250f, 0.006f, 0.016f, 128, 10), at * turned(90.0f, xAxis));      // meridian
+    append(g, torus(0.265f, 0.018f, 0.005f, 128, 10), at);                             // horizon
+    append(g, torus(0.232f, 0.005f, 0.013f, 128, 10), tilted);                         // equator
+    append(g, torus(0.222f, 0.004f, 0.022f, 128, 10), tilted * turned(23.4f, xAxis));  // ecliptic
+    append(g, torus(0.232f, 0.005f, 0.008f, 128, 10), tilted * turned(90.0f, zAxis));  // colure
+    for (const float side : {-1.0f, 1.0f}) {                                           // tropics
         append(g, torus(0.213f, 0.004f, 0.006f, 128, 8), tilted * place({0.0f, side * 0.092f, 0.0f}));
     }
     append(g, sphere(0.055f, 48, 24), at);
@@ -140,13 +167,15 @@ Geometry lanternMetal() {
     for (int i = 0; i < 6; ++i) {
         const float angle = glm::two_pi<float>() * static_cast<float>(i) / 6.0f;
         const glm::vec3 out(std::sin(angle), 0.0f, std::cos(angle));
-        appendRod(g, 0.09f * out + glm::vec3(0.0f, -0.865f, 0.0f), 0.112f * out + glm::vec3(0.0f, -0.595f, 0.0f), 0.006f);
+        appendRod(g, 0.09f * out + glm::vec3(0.0f, -0.865f, 0.0f), 0.112f * out + glm::vec3(0.0f, -0.595f, 0.0f),
+                  0.006f);
     }
     return g;
 }
 
 Geometry lanternLight() {
-    return lathe({curve({{0.0f, -0.85f}, {0.045f, -0.83f}, {0.06f, -0.75f}, {0.045f, -0.67f}, {0.0f, -0.64f}}, 5)}, 24);
+    // Few triangles: each is a light to sample.
+    return lathe({{{0.0f, -0.85f}, {0.045f, -0.82f}, {0.06f, -0.75f}, {0.045f, -0.68f}, {0.0f, -0.64f}}}, 8);
 }
 
 }  // namespace raylab::assets

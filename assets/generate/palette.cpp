@@ -42,13 +42,12 @@ uint32_t addPlain(GltfWriter& gltf, const char* name, glm::vec3 baseColor, float
     return gltf.addMaterial(spec);
 }
 
-uint32_t addGlass(GltfWriter& gltf, const char* name, glm::vec3 colour, float attenuationDistance) {
-    MaterialSpec spec{.name = name};
+/// `tint` is what one passage through the surface leaves of white light.
+uint32_t addGlass(GltfWriter& gltf, const char* name, glm::vec3 tint) {
+    MaterialSpec spec{.name = name, .baseColor = tint};
     spec.roughness = 0.0f;
     spec.transmission = 1.0f;
     spec.thickness = 0.1f;
-    spec.attenuationColor = colour;
-    spec.attenuationDistance = attenuationDistance;
     return gltf.addMaterial(spec);
 }
 
@@ -63,7 +62,7 @@ uint32_t addWater(GltfWriter& gltf, const Painting& painting) {
 
 uint32_t addLight(GltfWriter& gltf) {
     MaterialSpec spec{.name = "lantern light", .baseColor = glm::vec3(0.8f)};
-    spec.emission = glm::vec3(14.0f, 7.6f, 2.9f);
+    spec.emission = glm::vec3(11.0f, 5.6f, 2.0f);
     return gltf.addMaterial(spec);
 }
 
@@ -103,8 +102,8 @@ Palette addPalette(GltfWriter& gltf) {
     p.gold = addPlain(gltf, "gold", {1.0f, 0.71f, 0.29f}, 0.16f, 1.0f);
     p.copper = addPlain(gltf, "copper", {0.95f, 0.64f, 0.54f}, 0.08f, 1.0f);
     p.iron = addPlain(gltf, "iron", {0.10f, 0.095f, 0.09f}, 0.55f, 1.0f);
-    p.clearGlass = addGlass(gltf, "clear glass", {0.93f, 0.98f, 0.96f}, 0.4f);
-    p.tintedGlass = addGlass(gltf, "blue glass", {0.16f, 0.42f, 0.75f}, 0.016f);
+    p.clearGlass = addGlass(gltf, "clear glass", {0.99f, 1.0f, 0.995f});
+    p.tintedGlass = addGlass(gltf, "blue glass", {0.50f, 0.76f, 0.94f});
     p.lanternLight = addLight(gltf);
     return p;
 }

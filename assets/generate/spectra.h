@@ -19,8 +19,8 @@ float valueAt(const Spectrum& spectrum, float wavelengthNm);
 /// Color Matching Functions", JCGT 2(2), 2013, section 2.2 (multi-lobe fit, within 1 % of the CIE 1931 integrals).
 glm::vec3 radianceToRgb(const Spectrum& radiance);
 
-/// Reflectance in linear sRGB as seen under `light`: RGB(reflectance * light) / RGB(light), a channel at a time, so that
-/// the light's RGB times the result is exactly the colour of the first bounce. Clamped to [0, 1].
+/// Reflectance in linear sRGB as seen under `light`: RGB(reflectance * light) / RGB(light), a channel at a time, so
+/// that the light's RGB times the result is exactly the colour of the first bounce. Clamped to [0, 1].
 glm::vec3 reflectanceToRgb(const Spectrum& reflectance, const Spectrum& light);
 
 }  // namespace raylab::assets

@@ -59,7 +59,8 @@ SurfaceMaps paintSprig(const std::vector<Leaf>& leaves, float stemTop, glm::vec3
 }
 
 glm::vec3 vary(glm::vec3 colour, Dice& dice) {
-    return colour * dice.roll(0.8f, 1.15f) + glm::vec3(dice.roll(-0.02f, 0.05f), dice.roll(-0.02f, 0.02f), 0.0f);
+    const glm::vec3 shift{dice.roll(-0.02f, 0.05f), dice.roll(-0.02f, 0.02f), 0.0f};
+    return colour * dice.roll(0.8f, 1.15f) + shift;
 }
 
 /// Leaves in alternation up the stem, one at the tip.
@@ -91,7 +92,7 @@ SurfaceMaps paintBougainvilleaSprig() {
     const glm::vec3 magenta(0.80f, 0.13f, 0.42f);
     std::vector<Leaf> leaves = alternating(5, 0.30f, 0.085f, {0.30f, 0.45f, 0.17f}, dice);
     for (uint32_t cluster = 0; cluster < 9; ++cluster) {
-        const glm::vec2 centre(dice.roll(0.20f, 0.80f), dice.roll(0.22f, 0.84f));
+        const glm::vec2 centre{dice.roll(0.20f, 0.80f), dice.roll(0.22f, 0.84f)};
         const float turn = dice.roll(0.0f, 360.0f);
         for (uint32_t i = 0; i < 3; ++i) {
             leaves.push_back({centre, turn + 120.0f * static_cast<float>(i) + dice.roll(-15.0f, 15.0f),

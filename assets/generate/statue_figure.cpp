@@ -29,8 +29,8 @@ float ellipsoid(glm::vec3 p, glm::vec3 centre, glm::vec3 radii) {
     return slope > 1e-6f ? length * (length - 1.0f) / slope : -glm::min(radii.x, glm::min(radii.y, radii.z));
 }
 
-/// Cross-section of gathered cloth along `phase`, one fold a unit: broad round ridges between narrow valleys, in [0, 1].
-/// Each fold has its own depth; `period` folds close a ring.
+/// Cross-section of gathered cloth along `phase`, one fold a unit: broad round ridges between narrow valleys, in [0,
+/// 1]. Each fold has its own depth; `period` folds close a ring.
 float folds(float phase, float period, uint32_t seed) {
     const float number = std::floor(phase);
     const float s = phase - number;
@@ -89,9 +89,19 @@ Figure::Figure() : bone_(wingBone(1.0f)) {
     strand({-0.14f, 0.90f, 0.06f}, {-0.21f, 0.55f, 0.02f}, {-0.25f, 0.05f, -0.08f}, 0.008f, 0.030f);
     strand({-0.16f, 0.90f, 0.00f}, {-0.24f, 0.55f, -0.08f}, {-0.31f, 0.05f, -0.26f}, 0.008f, 0.032f);
     strand({-0.13f, 0.88f, 0.10f}, {-0.19f, 0.50f, 0.13f}, {-0.20f, 0.05f, 0.05f}, 0.006f, 0.022f);
-    mantlePath_ = smoothPath({{-0.19f, 0.99f, -0.06f}, {-0.165f, 0.985f, 0.07f}, {-0.08f, 0.955f, 0.145f}, {0.02f, 0.925f, 0.15f},
-                   {0.12f, 0.90f, 0.115f},  {0.19f, 0.885f, 0.02f},   {0.225f, 0.85f, -0.12f},  {0.245f, 0.79f, -0.26f},
-                   {0.28f, 0.73f, -0.39f},  {0.345f, 0.685f, -0.52f}, {0.40f, 0.67f, -0.66f},   {0.42f, 0.70f, -0.81f}}, 3);
+    mantlePath_ = smoothPath({{-0.19f, 0.99f, -0.06f},
+                              {-0.165f, 0.985f, 0.07f},
+                              {-0.08f, 0.955f, 0.145f},
+                              {0.02f, 0.925f, 0.15f},
+                              {0.12f, 0.90f, 0.115f},
+                              {0.19f, 0.885f, 0.02f},
+                              {0.225f, 0.85f, -0.12f},
+                              {0.245f, 0.79f, -0.26f},
+                              {0.28f, 0.73f, -0.39f},
+                              {0.345f, 0.685f, -0.52f},
+                              {0.40f, 0.67f, -0.66f},
+                              {0.42f, 0.70f, -0.81f}},
+                             3);
 }
 
 float Figure::legs(glm::vec3 p) const {
@@ -123,9 +133,11 @@ float Figure::torso(glm::vec3 p) const {
     // Arms broken off below the shoulder, neck above the collar: cut by rough, slanted planes.
     const float roughness = 0.006f * noise3(38.0f * p, 603);
     float arms = roundCone(mirrored, {0.175f, 1.40f, 0.0f}, {0.255f, 1.27f, -0.045f}, 0.055f, 0.043f);
-    arms = glm::max(arms, glm::dot(mirrored - glm::vec3(0.225f, 1.315f, -0.02f), glm::vec3(0.55f, -0.80f, -0.22f)) + roughness);
+    arms = glm::max(
+        arms, glm::dot(mirrored - glm::vec3(0.225f, 1.315f, -0.02f), glm::vec3(0.55f, -0.80f, -0.22f)) + roughness);
     d = blend(d, arms, 0.03f);
-    const float neckCut = glm::dot(q - glm::vec3(0.0f, 1.535f, 0.02f), glm::normalize(glm::vec3(0.15f, 1.0f, 0.25f))) + roughness;
+    const float neckCut =
+        glm::dot(q - glm::vec3(0.0f, 1.535f, 0.02f), glm::normalize(glm::vec3(0.15f, 1.0f, 0.25f))) + roughness;
     return glm::max(d, neckCut);
 }
 
@@ -135,7 +147,8 @@ float Figure::skirt(glm::vec3 p, float toLegs) const {
     const glm::vec2 radii(0.158f + 0.15f * t, 0.115f + 0.26f * std::pow(t, 1.25f));
     const glm::vec2 q = (glm::vec2(p.x, p.z) - centre) / radii;
     const float length = glm::length(q);
-    const float d = (length - 1.0f) * glm::mix(glm::min(radii.x, radii.y), glm::length(radii * q) / glm::max(length, 0.05f), 0.7f);
+    const float d =
+        (length - 1.0f) * glm::mix(glm::min(radii.x, radii.y), glm::length(radii * q) / glm::max(length, 0.05f), 0.7f);
     if (d > 0.16f) return d - 0.07f;
     // The ring of folds widens towards the hem; noise makes them wander, part and meet.
     constexpr float kFolds = 21.0f;
@@ -184,7 +197,8 @@ float Figure::mantle(glm::vec3 p) const {
     const glm::vec3 across = glm::normalize(glm::vec3(-tangent.z, 0.0f, tangent.x));
     const float up = offset.y + 0.11f * open;
     const float wave = 0.032f * open * std::sin(16.0f * up + 6.0f * along);
-    const glm::vec2 half(glm::mix(0.036f, 0.20f + 0.03f * std::sin(21.0f * along), open), glm::mix(0.036f, 0.024f, open));
+    const glm::vec2 half(glm::mix(0.036f, 0.20f + 0.03f * std::sin(21.0f * along), open),
+                         glm::mix(0.036f, 0.024f, open));
     const glm::vec2 q(up, glm::dot(offset, across) + wave);
     const float rolls = glm::mix(0.008f * std::sin(5.0f * std::atan2(q.x, q.y) + 30.0f * along),
                                  0.008f * std::sin(46.0f * up - 12.0f * along), open);
@@ -195,7 +209,8 @@ float Figure::mantle(glm::vec3 p) const {
 }
 
 float Figure::rock(glm::vec3 p) const {
-    const float lumps = 0.045f * noise3(4.5f * p, 615) + 0.018f * noise3(13.0f * p, 617) + 0.006f * noise3(40.0f * p, 619);
+    const float lumps =
+        0.045f * noise3(4.5f * p, 615) + 0.018f * noise3(13.0f * p, 617) + 0.006f * noise3(40.0f * p, 619);
     const float d = ellipsoid(p, {0.02f, -0.13f, -0.08f}, {0.46f, 0.125f, 0.46f});
     return d - lumps;
 }

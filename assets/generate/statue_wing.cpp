@@ -9,11 +9,11 @@ namespace {
 
 struct Feather {
     glm::vec3 root;
-    glm::vec3 axis;      ///< unit, from root to tip
-    glm::vec3 normal;    ///< unit, the side it bends towards
+    glm::vec3 axis;    ///< unit, from root to tip
+    glm::vec3 normal;  ///< unit, the side it bends towards
     float length;
     float halfWidth;
-    float bend;          ///< how far the tip leaves the straight line, as a share of the length
+    float bend;  ///< how far the tip leaves the straight line, as a share of the length
     uint32_t columns;
     uint32_t rows;
 };
@@ -27,7 +27,9 @@ Geometry makeFeather(const Feather& f) {
         const float angle = glm::two_pi<float>() * (around == 1.0f ? 0.0f : around);
         const float v = -std::cos(angle);
         const float front = -std::sin(angle);
-        const float outline = (0.30f + 0.70f * glm::smoothstep(0.0f, 0.35f, u)) * std::sqrt(glm::max(0.0f, 1.0f - std::pow(u, 7.0f)));
+        const float vane = 0.30f + 0.70f * glm::smoothstep(0.0f, 0.35f, u);
+        const float ends = glm::min(1.0f, 20.0f * u) * std::sqrt(glm::max(0.0f, 1.0f - std::pow(u, 7.0f)));
+        const float outline = vane * ends;
         const float shaft = 0.10f * std::exp(-60.0f * v * v) * (1.0f - 0.8f * u);
         const float barbs = 0.035f * std::sin(1.4f * f.length / f.halfWidth * 22.0f * (u - 0.16f * std::abs(v)));
         const float body = 0.16f * std::sqrt(glm::max(0.0f, 1.0f - v * v)) + shaft + barbs * (1.0f - v * v);
@@ -47,8 +49,8 @@ struct Row {
     uint32_t count;
     float length;
     float halfWidth;
-    float lift;    ///< distance from the wing's middle plane, metres; its sign is the side
-    float along;   ///< how far down the flight feathers the row starts, as a share of their length
+    float lift;   ///< distance from the wing's middle plane, metres; its sign is the side
+    float along;  ///< how far down the flight feathers the row starts, as a share of their length
     uint32_t columns;
     uint32_t rows;
 };
@@ -77,7 +79,10 @@ void appendRow(Geometry& g, const std::vector<glm::vec3>& bone, float side, cons
 }  // namespace
 
 std::vector<glm::vec3> wingBone(float side) {
-    return {{side * 0.06f, 1.34f, -0.075f}, {side * 0.24f, 1.46f, -0.22f}, {side * 0.46f, 1.68f, -0.33f}, {side * 0.56f, 1.82f, -0.40f}};
+    return {{side * 0.06f, 1.34f, -0.075f},
+            {side * 0.24f, 1.46f, -0.22f},
+            {side * 0.46f, 1.68f, -0.33f},
+            {side * 0.56f, 1.82f, -0.40f}};
 }
 
 Geometry wing(float side) {

@@ -66,8 +66,8 @@ SurfaceMaps paintSurface(const PaintConfig& config, const std::function<SurfaceP
     SurfaceMaps maps;
     const auto encodeColour = [&] {
         if (config.alpha) {
-            maps.baseColor =
-                encodeImage<4>(size, [&](uint32_t x, uint32_t y) { return glm::vec4(at(x, y).colour, at(x, y).alpha); });
+            maps.baseColor = encodeImage<4>(
+                size, [&](uint32_t x, uint32_t y) { return glm::vec4(at(x, y).colour, at(x, y).alpha); });
         } else {
             maps.baseColor = encodeImage<3>(size, [&](uint32_t x, uint32_t y) { return at(x, y).colour; });
         }

@@ -36,7 +36,9 @@ constexpr int kMaxBvhBins = 32;
 constexpr size_t kMaxBvhPrimitives = size_t{1} << 27;  ///< a child reference has 27 bits for the first one
 
 struct BvhConfig {
-    int bins = 16;                  ///< candidate planes + 1 an axis, 2 .. kMaxBvhBins
+    /// Candidate planes + 1 an axis, 2 .. kMaxBvhBins. On the dragon 8 bins give SAH 49.9, 16 give 49.1, 32 give 48.8;
+    /// on two threads 32 take about a tenth longer than 16, and 8 no less.
+    int bins = 16;
     int maxLeafSize = 4;            ///< primitives in a leaf at most, 1 .. kMaxLeafSize; SAH often stops earlier
     float traversalCost = 1.0f;     ///< of one inner node, in any unit
     float intersectionCost = 1.0f;  ///< of one primitive, in the same unit

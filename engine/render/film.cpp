@@ -21,6 +21,9 @@ uint32_t chooseRowsPerBand(const Device& device, uint32_t width, uint32_t height
     return static_cast<uint32_t>(std::min<size_t>(rows, whole));
 }
 
+/// Added to the squared mean: the error of pixels darker than 0.1 counts as absolute, as in measure/image_error.h.
+constexpr double kRelativeErrorFloor = 1e-2;
+
 double luminance(const double* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
 }  // namespace
@@ -50,7 +53,7 @@ FilmImage Film::read(Device& device) const {
 FilmImage developFilm(const std::vector<shared::FilmPixel>& pixels, uint32_t width, uint32_t height) {
     const auto w = static_cast<int>(width), h = static_cast<int>(height);
     FilmImage image{Bitmap(w, h, 3), Bitmap(w, h, 3), Bitmap(w, h, 1)};
-    double squaredError = 0.0, brightness = 0.0;
+    double squaredError = 0.0;
     for (size_t i = 0; i < pixels.size(); ++i) {
         const shared::FilmPixel& p = pixels[i];
         const double n = p.count;
@@ -67,11 +70,9 @@ FilmImage developFilm(const std::vector<shared::FilmPixel>& pixels, uint32_t wid
         image.samples.pixels[i] = static_cast<float>(p.count);
         image.rays += p.rays;
         image.nonFinitePixels += p.nonFinite > 0 ? 1 : 0;
-        squaredError += luminance(error) * luminance(error);
-        brightness += luminance(mean);
+        squaredError += luminance(error) * luminance(error) / (luminance(mean) * luminance(mean) + kRelativeErrorFloor);
     }
-    const double count = static_cast<double>(pixels.size());
-    if (brightness > 0.0) image.estimatedRelativeError = std::sqrt(squaredError / count) / (brightness / count);
+    image.estimatedRelativeError = std::sqrt(squaredError / static_cast<double>(pixels.size()));
     return image;
 }
 

@@ -16,7 +16,7 @@ struct FilmImage {
     Bitmap samples;   ///< one channel: samples a pixel
     uint64_t rays = 0;                   ///< traced in all
     uint64_t nonFinitePixels = 0;        ///< pixels in which a sample was infinite or NaN (and was left out)
-    double estimatedRelativeError = 0;   ///< root mean square of the standard error over the mean, of luminance
+    double estimatedRelativeError = 0;   ///< root of the mean relative variance of the pixels' luminance: an estimate of sqrt(relMSE)
 };
 
 /// Sums of samples on the device, in bands of rows, each within the device's storage buffer range.

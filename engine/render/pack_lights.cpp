@@ -125,22 +125,6 @@ double packPunctual(const Scene& scene, double sceneRadius, LightTables& lights)
     return total;
 }
 
-/// Mean luminance over each texel of the bilinear reconstruction: weights 1 6 1 / 8 along each axis.
-std::vector<double> meanOfTexels(const Bitmap& map) {
-    std::vector<double> means(map.pixelCount());
-    for (int y = 0; y < map.height; ++y)
-        for (int x = 0; x < map.width; ++x) {
-            double sum = 0.0;
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const float* p = map.at((x + dx + map.width) % map.width, std::clamp(y + dy, 0, map.height - 1));
-                    sum += (dx == 0 ? 6.0 : 1.0) * (dy == 0 ? 6.0 : 1.0) * luminance({p[0], p[1], p[2]});
-                }
-            means[static_cast<size_t>(y) * map.width + x] = sum / 64.0;
-        }
-    return means;
-}
-
 double packEnvironment(const Scene& scene, double sceneRadius, LightTables& lights) {
     if (!scene.environment) return 0.0;
     const Bitmap& map = scene.environment->radiance;
@@ -148,14 +132,15 @@ double packEnvironment(const Scene& scene, double sceneRadius, LightTables& ligh
         lights.environmentConstant = {map.pixels[0], map.pixels[1], map.pixels[2]};
         return 0.0;
     }
-    std::vector<double> weights = meanOfTexels(map);
-    double integral = 0.0;
+    std::vector<double> weights(map.pixelCount());
     for (int y = 0; y < map.height; ++y) {
         const double sine = std::sin(kPi * (y + 0.5) / map.height);
-        for (int x = 0; x < map.width; ++x) weights[static_cast<size_t>(y) * map.width + x] *= sine;
+        for (int x = 0; x < map.width; ++x) {
+            const float* p = map.at(x, y);
+            weights[static_cast<size_t>(y) * map.width + x] = sine * luminance({p[0], p[1], p[2]});
+        }
     }
-    for (const double weight : weights) integral += weight;
-    const double mean = integral / static_cast<double>(weights.size());
+    const double mean = std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
     lights.environment.resize(map.pixelCount());
     for (size_t i = 0; i < weights.size(); ++i) {
         const float* p = map.pixels.data() + 3 * i;

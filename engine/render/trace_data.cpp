@@ -40,11 +40,11 @@ void appendMesh(const Scene& scene, const Mesh& mesh, const glm::mat4& matrix, u
     }
 }
 
-TriangleSoup mergedSoup(const Scene& scene, const InstanceSharing& sharing) {
+TriangleSoup mergedSoup(const Scene& scene, const TreePlan& plan) {
     TriangleSoup soup;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (sharing.useCount[instance.mesh] == 1)
+        if (!plan.ownTree[instance.mesh])
             appendMesh(scene, scene.meshes[instance.mesh], instance.objectToWorld, i, soup);
     }
     return soup;
@@ -102,7 +102,7 @@ Aabb transformedBounds(const Aabb& box, const glm::mat4& matrix) {
     return {glm::vec3(lo - slack), glm::vec3(hi + slack)};
 }
 
-/// The upper tree over the merged tree and every instance of a shared mesh.
+/// The upper tree over the merged tree and every instance of a mesh with a tree of its own.
 void buildUpper(const Scene& scene, const std::vector<int64_t>& treeOfMesh, const BvhConfig& config, TraceData& data) {
     std::vector<shared::TraceInstance> records;
     std::vector<Aabb> bounds;
@@ -143,20 +143,20 @@ TraceData buildTraceData(const Scene& scene, const BvhConfig& config) {
     TraceData data;
     BvhConfig triangleConfig = config;
     triangleConfig.maxDepth = kTriangleDepth;
-    const InstanceSharing sharing = analyseSharing(scene);
+    const TreePlan plan = planTrees(scene);
     TriangleTree merged;
     merged.merged = true;
-    appendTree(mergedSoup(scene, sharing), triangleConfig, merged, data);
+    appendTree(mergedSoup(scene, plan), triangleConfig, merged, data);
     std::vector<int64_t> treeOfMesh(scene.meshes.size(), -1);
     for (uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-        if (sharing.useCount[mesh] < 2) continue;
+        if (!plan.ownTree[mesh]) continue;
         TriangleSoup soup;
         appendMesh(scene, scene.meshes[mesh], glm::mat4(1.0f), shared::kInheritInstance, soup);
         TriangleTree tree;
         tree.mesh = mesh;
         if (appendTree(soup, triangleConfig, tree, data)) treeOfMesh[mesh] = static_cast<int64_t>(data.trees.size()) - 1;
     }
-    if (sharing.sharedMeshes > 0) {
+    if (plan.hasUpperTree()) {
         buildUpper(scene, treeOfMesh, config, data);
     } else if (!data.trees.empty()) {
         data.root = data.trees[0].root;

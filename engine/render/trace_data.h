@@ -10,7 +10,7 @@
 
 namespace raylab {
 
-/// One tree over triangles: a mesh that several instances show, or all other meshes merged in world space.
+/// One tree over triangles: a mesh below instances, or meshes merged in world space (TreePlan).
 struct TriangleTree {
     Bvh bvh;
     Grid grid;
@@ -23,7 +23,7 @@ struct TriangleTree {
 };
 
 /// What the software tracers read: all trees in one array of nodes, triangles in leaf order, instances in leaf order of
-/// the upper tree. Where no mesh is shown twice there is no upper tree: the root is the merged tree's.
+/// the upper tree. Without an upper tree the root is the merged tree's.
 struct TraceData {
     std::vector<NodeBvh2q> nodes;
     std::vector<shared::TraceTriangle> triangles;

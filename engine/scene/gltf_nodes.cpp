@@ -5,6 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "engine/scene/import_parts.h"
+
 namespace raylab {
 namespace {
 
@@ -12,7 +14,11 @@ namespace {
 constexpr size_t kMostExtraPlacements = 1'000'000;
 
 glm::dmat4 localTransform(const JsonView& node) {
-    if (node.has("matrix")) return glm::make_mat4(node.numbers("matrix", std::vector<double>(16)).data());
+    if (node.has("matrix")) {
+        glm::dmat4 matrix = glm::make_mat4(node.numbers("matrix", std::vector<double>(16)).data());
+        for (int c = 0; c < 4; ++c) matrix[c][3] = c == 3 ? 1.0 : 0.0;  // glTF allows affine maps only
+        return matrix;
+    }
     const std::vector<double> t = node.numbers("translation", {0.0, 0.0, 0.0});
     const std::vector<double> r = node.numbers("rotation", {0.0, 0.0, 0.0, 1.0});
     const std::vector<double> s = node.numbers("scale", {1.0, 1.0, 1.0});
@@ -130,6 +136,10 @@ void readGltfCameras(const GltfDocument& document, const std::vector<PlacedNode>
                                      "\" is orthographic and was left out: cameras are perspective");
             continue;
         }
+        if (!isBounded(placed.toWorld)) {
+            scene.warnings.push_back("camera \"" + name + "\" has a non-finite transform and was left out");
+            continue;
+        }
         scene.cameras.push_back(perspectiveCamera(json, placed));
         scene.cameras.back().name = name;
     }
@@ -144,8 +154,13 @@ void readGltfLights(const GltfDocument& document, const std::vector<PlacedNode>&
         const auto index = node.object("extensions").object("KHR_lights_punctual").index("light", lights.size());
         if (!index) continue;
         const JsonView json = lights.element(*index);
+        const std::string name = json.text("name", node.text("name", "light " + std::to_string(*index)));
+        if (!isBounded(placed.toWorld)) {
+            scene.warnings.push_back("light \"" + name + "\" has a non-finite transform and was left out");
+            continue;
+        }
         Light light = punctualLight(json, placed);
-        light.name = json.text("name", node.text("name", "light " + std::to_string(*index)));
+        light.name = name;
         if (glm::any(glm::lessThan(light.intensity, glm::vec3(0.0f)))) {
             scene.warnings.push_back("light \"" + light.name + "\" has a negative intensity, taken as 0");
             light.intensity = glm::max(light.intensity, glm::vec3(0.0f));

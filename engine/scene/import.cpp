@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "engine/core/error.h"
@@ -27,9 +28,6 @@ std::string lowerExtension(const fs::path& path) {
 /// not. A float matrix cannot tell less than 1e-7 from 0.
 bool isInvertible(const glm::dmat4& matrix) {
     double lengths = 1.0;
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 3; ++r)
-            if (!(std::abs(matrix[c][r]) <= static_cast<double>(kLargestCoordinate))) return false;
     for (int c = 0; c < 3; ++c) lengths *= glm::length(glm::dvec3(matrix[c]));
     return std::abs(glm::determinant(glm::dmat3(matrix))) > 1e-7 * lengths;
 }
@@ -87,8 +85,15 @@ void supplyTangents(Scene& scene) {
 
 }  // namespace
 
+bool isBounded(const glm::dmat4& transform) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!(std::abs(transform[c][r]) <= static_cast<double>(kLargestCoordinate))) return false;
+    return true;
+}
+
 void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld) {
-    if (isInvertible(toWorld))
+    if (isBounded(toWorld) && isInvertible(toWorld))
         draft.scene.instances.push_back({name, static_cast<uint32_t>(mesh), glm::mat4(toWorld)});
     else
         draft.singular.push_back(name);

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -122,11 +123,10 @@ using VertexKey = std::array<uint32_t, 12>;
 
 VertexKey vertexKey(const Mesh& mesh, size_t i) {
     VertexKey key{};
-    const auto store = [&key](size_t first, float value) { key[first] = std::bit_cast<uint32_t>(value); };
-    for (int c = 0; c < 3; ++c) store(static_cast<size_t>(c), mesh.positions[i][c]);
-    for (int c = 0; c < 3 && !mesh.normals.empty(); ++c) store(static_cast<size_t>(3 + c), mesh.normals[i][c]);
-    for (int c = 0; c < 2 && !mesh.uvs.empty(); ++c) store(static_cast<size_t>(6 + c), mesh.uvs[i][c]);
-    for (int c = 0; c < 4 && !mesh.tangents.empty(); ++c) store(static_cast<size_t>(8 + c), mesh.tangents[i][c]);
+    std::memcpy(key.data(), &mesh.positions[i], sizeof(glm::vec3));
+    if (!mesh.normals.empty()) std::memcpy(key.data() + 3, &mesh.normals[i], sizeof(glm::vec3));
+    if (!mesh.uvs.empty()) std::memcpy(key.data() + 6, &mesh.uvs[i], sizeof(glm::vec2));
+    if (!mesh.tangents.empty()) std::memcpy(key.data() + 8, &mesh.tangents[i], sizeof(glm::vec4));
     return key;
 }
 

@@ -19,6 +19,9 @@ struct SceneDraft {
     std::vector<std::string> singular;  ///< instances that were left out
 };
 
+/// Whether all that the transform holds is finite and at most kLargestCoordinate.
+bool isBounded(const glm::dmat4& transform);
+
 /// Adds an instance unless its transform is singular or not finite; finishScene then names it in a warning.
 void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld);
 

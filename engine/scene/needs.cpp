@@ -1,19 +1,41 @@
 #include "engine/scene/needs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/scene/bounds.h"
 
 namespace raylab {
 namespace {
+
+/// Boxes of nodes are rounded outwards on a grid of 2^16 steps: where triangles are not several steps long, the rounded
+/// boxes of neighbours overlap and culling suffers. A tree of one's own costs a transform of the ray.
+constexpr double kGridSteps = 65536.0;
+constexpr double kFinestSteps = 4.0;
+constexpr size_t kSmallestOwnTree = 256;  // triangles
+
+/// Edge length of a right isosceles triangle of the mesh's mean area, in world space.
+double typicalEdge(const Mesh& mesh, const glm::mat4& matrix) {
+    if (mesh.triangles.size() < kSmallestOwnTree) return std::numeric_limits<double>::infinity();
+    const glm::dmat3 linear(matrix);
+    double area = 0.0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 p0(mesh.positions[t.x]), p1(mesh.positions[t.y]), p2(mesh.positions[t.z]);
+        area += 0.5 * glm::length(glm::cross(linear * (p1 - p0), linear * (p2 - p0)));
+    }
+    return std::sqrt(2.0 * area / static_cast<double>(mesh.triangles.size()));
+}
 
 std::string count(size_t n, const char* one, const char* many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
 /// Materials that an instance shows: a material that no surface wears adds nothing to the kernel.
-std::vector<const Material*> wornMaterials(const Scene& scene, const InstanceSharing& sharing) {
+std::vector<const Material*> wornMaterials(const Scene& scene, const TreePlan& plan) {
     std::vector<bool> worn(scene.materials.size(), false);
     for (size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
-        if (sharing.useCount[mesh] > 0) worn[scene.meshes[mesh].material] = true;
+        if (plan.useCount[mesh] > 0) worn[scene.meshes[mesh].material] = true;
     std::vector<const Material*> materials;
     for (size_t i = 0; i < worn.size(); ++i)
         if (worn[i]) materials.push_back(&scene.materials[i]);
@@ -35,11 +57,12 @@ bool hasTexture(const Material& m) {
            m.normalTexture != kNoTexture || m.emissionTexture != kNoTexture;
 }
 
-Need instancingNeed(const InstanceSharing& sharing) {
-    const size_t n = sharing.sharedMeshes;
-    return {shared::kNeedInstancing, "instancing", n > 0,
-            n > 0 ? count(n, "mesh is", "meshes are") + " shown more than once"
-                  : "every mesh is shown once: one tree in world space"};
+Need instancingNeed(const TreePlan& plan) {
+    std::string reason = "every mesh is shown once, at one scale: one tree in world space";
+    if (plan.hasUpperTree())
+        reason = count(plan.sharedMeshes, "mesh is", "meshes are") + " shown more than once, " +
+                 count(plan.fineMeshes, "is", "are") + " finer than a grid over the world";
+    return {shared::kNeedInstancing, "instancing", plan.hasUpperTree(), reason};
 }
 
 Need transformNeed(const Scene& scene) {
@@ -50,32 +73,43 @@ Need transformNeed(const Scene& scene) {
             n > 0 ? count(n, "instance is", "instances are") + " moved" : "every matrix is the identity"};
 }
 
-Need smoothNeed(const Scene& scene, const InstanceSharing& sharing) {
+Need smoothNeed(const Scene& scene, const TreePlan& plan) {
     size_t n = 0;
     for (size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
-        if (sharing.useCount[mesh] > 0 && !scene.meshes[mesh].normals.empty()) ++n;
+        if (plan.useCount[mesh] > 0 && !scene.meshes[mesh].normals.empty()) ++n;
     return {shared::kNeedSmoothNormals, "smooth normals", n > 0,
             n > 0 ? count(n, "mesh has", "meshes have") + " vertex normals" : "all meshes are flat"};
 }
 
 }  // namespace
 
-InstanceSharing analyseSharing(const Scene& scene) {
-    InstanceSharing sharing{std::vector<uint32_t>(scene.meshes.size(), 0), 0};
-    for (const Instance& instance : scene.instances) ++sharing.useCount[instance.mesh];
-    sharing.sharedMeshes = static_cast<size_t>(
-        std::count_if(sharing.useCount.begin(), sharing.useCount.end(), [](uint32_t uses) { return uses > 1; }));
-    return sharing;
+TreePlan planTrees(const Scene& scene) {
+    TreePlan plan;
+    plan.useCount.resize(scene.meshes.size(), 0);
+    plan.ownTree.resize(scene.meshes.size(), false);
+    for (const Instance& instance : scene.instances) ++plan.useCount[instance.mesh];
+    const Bounds bounds = sceneBounds(scene);
+    const glm::vec3 extent = bounds.hi - bounds.lo;
+    const double finest = kFinestSteps * static_cast<double>(std::max({extent.x, extent.y, extent.z})) / kGridSteps;
+    for (const Instance& instance : scene.instances) {
+        const size_t mesh = instance.mesh;
+        const bool isShared = plan.useCount[mesh] > 1;
+        if (plan.ownTree[mesh]) continue;
+        if (!isShared && typicalEdge(scene.meshes[mesh], instance.objectToWorld) >= finest) continue;
+        plan.ownTree[mesh] = true;
+        ++(isShared ? plan.sharedMeshes : plan.fineMeshes);
+    }
+    return plan;
 }
 
 SceneNeeds analyseNeeds(const Scene& scene) {
-    const InstanceSharing sharing = analyseSharing(scene);
-    const std::vector<const Material*> worn = wornMaterials(scene, sharing);
+    const TreePlan plan = planTrees(scene);
+    const std::vector<const Material*> worn = wornMaterials(scene, plan);
     SceneNeeds result;
     result.needs = {
-        instancingNeed(sharing),
+        instancingNeed(plan),
         transformNeed(scene),
-        smoothNeed(scene, sharing),
+        smoothNeed(scene, plan),
         materialNeed(shared::kNeedTextures, "textures", worn, "with a texture", hasTexture),
         materialNeed(shared::kNeedNormalMaps, "normal maps", worn, "with a normal map",
                      [](const Material& m) { return m.normalTexture != kNoTexture; }),

@@ -23,14 +23,18 @@ struct SceneNeeds {
     std::vector<Need> needs;  ///< all features, in the order of their bits
 };
 
-/// How the tree over instances is laid out: meshes that are shown once are merged into one tree in world space, others
-/// keep a tree of their own below an instance.
-struct InstanceSharing {
+/// How the trees are laid out: a mesh has a tree of its own below an instance where it is shown more than once, or where
+/// its detail is too fine for the grid of a tree that spans the world; all others are merged into one tree in world space.
+struct TreePlan {
     std::vector<uint32_t> useCount;  ///< instances by mesh
-    size_t sharedMeshes = 0;         ///< meshes with more than one instance
+    std::vector<bool> ownTree;       ///< by mesh; false also for meshes that no instance shows
+    size_t sharedMeshes = 0;         ///< shown more than once
+    size_t fineMeshes = 0;           ///< shown once, with a tree of their own
+
+    bool hasUpperTree() const { return sharedMeshes + fineMeshes > 0; }
 };
 
-InstanceSharing analyseSharing(const Scene& scene);
+TreePlan planTrees(const Scene& scene);
 
 /// Walks the scene's data once. `scene.environment` and the lights must be those that will be rendered.
 SceneNeeds analyseNeeds(const Scene& scene);

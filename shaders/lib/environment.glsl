@@ -36,9 +36,9 @@ vec3 environmentRadiance(vec3 d, out float pdf) {
     vec4 c10 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(1, 0)));
     vec4 c01 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(0, 1)));
     vec4 c11 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(1, 1)));
-    float nearest = f.y < 0.5 ? (f.x < 0.5 ? c00.w : c10.w) : (f.x < 0.5 ? c01.w : c11.w);
-    pdf = environmentPdf(nearest, sqrt(max(0.0, 1.0 - d.y * d.y)));
-    return mix(mix(c00.rgb, c10.rgb, f.x), mix(c01.rgb, c11.rgb, f.x), f.y);
+    vec4 radiance = mix(mix(c00, c10, f.x), mix(c01, c11, f.x), f.y);
+    pdf = environmentPdf(radiance.w, sqrt(max(0.0, 1.0 - d.y * d.y)));
+    return radiance.rgb;
 }
 
 vec3 environmentRadiance(vec3 d) {
@@ -46,14 +46,20 @@ vec3 environmentRadiance(vec3 d) {
     return environmentRadiance(d, pdf);
 }
 
-// A direction in proportion to the map: `choice` picks the texel, `within` the place in it.
+float sampleTent(float u) { return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u); }
+
+// A direction in proportion to the map: `choice` picks a texel, `within` moves it by a tent, which makes the density the
+// bilinear interpolation of the texels' own: exactly what environmentRadiance interpolates, small suns included.
 vec3 sampleEnvironment(vec2 choice, vec2 within) {
     uint count = frame.environmentWidth * frame.environmentHeight;
     uint texel = min(uint(choice.x * float(count)), count - 1u);
     uvec2 entry = texelFetch(environmentAlias, int(texel)).xy;
     if (choice.y >= uintBitsToFloat(entry.x)) texel = entry.y;
-    vec2 cell = vec2(texel % frame.environmentWidth, texel / frame.environmentWidth);
-    vec2 uv = (cell + within) / vec2(frame.environmentWidth, frame.environmentHeight);
+    vec2 centre = vec2(texel % frame.environmentWidth, texel / frame.environmentWidth) + 0.5;
+    vec2 at = centre + vec2(sampleTent(within.x), sampleTent(within.y));
+    float height = float(frame.environmentHeight);
+    at.y = at.y > height ? 2.0 * height - at.y : abs(at.y);  // rows beyond a pole repeat the last one
+    vec2 uv = at / vec2(frame.environmentWidth, height);
     float theta = uv.y * kPi;
     float phi = (uv.x - 0.5) * 2.0 * kPi;
     return vec3(sin(theta) * sin(phi), cos(theta), -sin(theta) * cos(phi));

@@ -16,6 +16,7 @@ struct RayCone {
 struct Surface {
     vec3 position;
     vec3 positionError;    // bound of the rounding error, by component
+    float distanceError;   // bound of the rounding error of the distance to a triangle of this size
     vec3 geometricNormal;  // unit, on wo's side
     vec3 normal;           // shading normal, unit, on wo's side
     vec2 uv;
@@ -55,7 +56,7 @@ vec3 transformNormal(InstanceData data, vec3 n) {
 
 // Bound of the error of a point computed from barycentrics and, below an instance, of taking a ray's origin back into
 // object space (Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.8). The vertices' largest
-// coordinates take the place of the weighted sum: they also bound the error of the distance to a neighbouring triangle.
+// coordinates take the place of the weighted sum: they also bound the error of a neighbouring triangle's plane.
 vec3 positionErrorBound(InstanceData data, vec3 p0, vec3 p1, vec3 p2) {
     vec3 largest = max(abs(p0), max(abs(p1), abs(p2)));
     if (!needs(kNeedTransforms)) return roundingBound(8) * largest;
@@ -129,6 +130,7 @@ Surface surfaceAt(Hit hit, vec3 wo, RayCone cone, float u) {
         e1 = transformVector(data, e1);
         e2 = transformVector(data, e2);
     }
+    s.distanceError = roundingBound(4) * max(maxComponent(abs(e1)), maxComponent(abs(e2)));
     n = normalize(n);
     s.frontFace = dot(n, wo) >= 0.0;
     s.uv = vec2(0.0);
@@ -173,9 +175,10 @@ Surface surfaceAt(Hit hit, vec3 wo, RayCone cone, float u) {
     return s;
 }
 
-// An origin on the side of the surface that `direction` leaves to, moved by the error bound of the position and no more.
+// An origin on the side of the surface that `direction` leaves to, moved by the bounds of the rounding errors and no more:
+// that of the position, and that of the distance at which this triangle or a coplanar neighbour would be hit again.
 vec3 offsetOrigin(Surface s, vec3 direction) {
-    float distance = dot(abs(s.geometricNormal), s.positionError);
+    float distance = dot(abs(s.geometricNormal), s.positionError) + s.distanceError;
     vec3 shift = distance * s.geometricNormal;
     shift = dot(direction, s.geometricNormal) < 0.0 ? -shift : shift;
     vec3 p = s.position + shift;

@@ -5,8 +5,7 @@
 #ifndef RAYLAB_TRACE_BVH2Q_GLSL
 #define RAYLAB_TRACE_BVH2Q_GLSL
 
-#include "trace/common.glsl"
-#include "trace/triangle.glsl"
+#include "trace/candidate.glsl"
 
 const uint kLeafBit = 0x80000000u;
 const uint kLeafCountShift = 27;
@@ -41,7 +40,7 @@ vec2 slab(GridRay ray, uvec3 box, float tMin, float tMax) {
     return vec2(max(max(near.x, near.y), max(near.z, tMin)), min(min(far.x, far.y), min(far.z, tMax)) * kSlabPad);
 }
 
-// The two structs that a walk carries; `world` is restored when an instance is left.
+// The ray in the space of the tree that is being walked.
 struct Walk {
     GridRay grid;
     ShearedRay sheared;
@@ -56,8 +55,9 @@ Walk enterRoot(Ray ray) {
     return enterTree(ray.origin, ray.direction, frame.gridOrigin, frame.gridStep, kInheritInstance);
 }
 
-// The ray in the space of a leaf of the upper tree, and the root of the tree below.
-Walk enterInstance(Ray ray, uint slot, out uint root) {
+// Down into the tree of leaf `slot` of the upper tree, or back up where `leave`. One text for both, because lavapipe runs
+// both sides of every branch. `root`: of the tree that is entered.
+Walk changeTree(Ray ray, bool leave, uint slot, out uint root) {
     int at = int(slot * kWordsTraceInstance);
     vec4 row0 = uintBitsToFloat(texelFetch(traceInstanceWords, at));
     vec4 row1 = uintBitsToFloat(texelFetch(traceInstanceWords, at + 1));
@@ -68,11 +68,13 @@ Walk enterInstance(Ray ray, uint slot, out uint root) {
     vec3 origin = vec3(dot(row0, o), dot(row1, o), dot(row2, o));
     vec3 direction = vec3(dot(row0.xyz, ray.direction), dot(row1.xyz, ray.direction), dot(row2.xyz, ray.direction));
     root = a.w;
-    return enterTree(origin, direction, uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), b.w);
+    return enterTree(leave ? ray.origin : origin, leave ? ray.direction : direction,
+                     leave ? frame.gridOrigin : uintBitsToFloat(a.xyz), leave ? frame.gridStep : uintBitsToFloat(b.xyz),
+                     leave ? kInheritInstance : b.w);
 }
 
-bool walk(Ray ray, bool anyHit, out Hit hit) {
-    hit = Hit(ray.tMax, vec2(0.0), kInheritInstance, 0u);
+bool findHit(Ray ray, bool anyHit, Cursor after, out Candidate hit) {
+    hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kEndOfWalk) return false;
     Walk state = enterRoot(ray);
@@ -96,45 +98,26 @@ bool walk(Ray ray, bool anyHit, out Hit hit) {
             top += hit0 && hit1 ? 1u : (hit0 || hit1 ? 0u : 0xffffffffu);
         }
         if (node == kEndOfWalk) break;
-        if (needs(kNeedInstancing) && node == kLeaveInstance) {
-            state = enterRoot(ray);
-            upper = true;  // only instances of an upper tree are left
-            node = stack[top--];
+        bool leave = node == kLeaveInstance;
+        if (needs(kNeedInstancing) && (upper || leave)) {
+            uint root;
+            state = changeTree(ray, leave, leave ? 0u : node & kLeafFirstMask, root);
+            uint popped = stack[top];
+            stack[top + 1u] = kLeaveInstance;
+            node = leave ? popped : root;
+            top += leave ? 0xffffffffu : 1u;
+            upper = leave;
             continue;
         }
         uint first = node & kLeafFirstMask;
-        uint count = ((node >> kLeafCountShift) & 15u) + 1u;
-        if (needs(kNeedInstancing) && upper) {
-            state = enterInstance(ray, first, node);
-            stack[++top] = kLeaveInstance;
-            upper = false;
-            continue;
-        }
-        for (uint slot = first; slot < first + count; ++slot) {
-            int at = int(slot * kWordsTraceTriangle);
-            uvec4 p0 = texelFetch(traceTriangleWords, at);
-            uvec4 p1 = texelFetch(traceTriangleWords, at + 1);
-            uvec4 p2 = texelFetch(traceTriangleWords, at + 2);
-            float t;
-            vec2 uv;
-            bool candidate = intersectTriangle(state.sheared, uintBitsToFloat(p0.xyz), uintBitsToFloat(p1.xyz),
-                                               uintBitsToFloat(p2.xyz), ray.tMin, hit.t, t, uv);
-            uint instance = needs(kNeedInstancing) && state.instance != kInheritInstance ? state.instance : p0.w;
-            candidate = candidate && comesFirst(t, instance, p1.w, hit);
-            if (needs(kNeedAlpha) && candidate && p2.w != 0u) candidate = acceptsCandidate(instance, p1.w, uv, ray.key);
-            if (candidate) hit = Hit(t, uv, instance, p1.w);
-        }
+        uint last = first + ((node >> kLeafCountShift) & 15u);
+        for (uint slot = first; slot <= last; ++slot) testTriangle(ray, state.sheared, slot, state.instance, after, hit);
         if (anyHit && hit.instance != kInheritInstance) return true;
         node = stack[top--];
     }
     return hit.instance != kInheritInstance;
 }
 
-bool traceClosest(Ray ray, out Hit hit) { return walk(ray, false, hit); }
-
-bool traceOccluded(Ray ray) {
-    Hit hit;
-    return walk(ray, true, hit);
-}
+#include "trace/refine.glsl"
 
 #endif

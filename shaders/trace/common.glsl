@@ -26,11 +26,6 @@ const float kInfinity = 3.0e38;
 
 uint tracedRays = 0u;  // by this invocation
 
-// Ids order hits at equal distance, so that the answer does not depend on the tree.
-bool comesFirst(float t, uint instance, uint primitive, Hit best) {
-    return t < best.t || (instance < best.instance || (instance == best.instance && primitive < best.primitive));
-}
-
 vec2 triangleUv(uvec4 indices, vec2 barycentrics) {
     vec2 uv0 = uintBitsToFloat(texelFetch(vertexWords, int(indices.x * kWordsVertex + 1u)).xy);
     vec2 uv1 = uintBitsToFloat(texelFetch(vertexWords, int(indices.y * kWordsVertex + 1u)).xy);

@@ -161,8 +161,8 @@ TEST(AccelBuild, CostsLittleMoreThanAFullSweep) {
 
 TEST(AccelBuild, MillionEqualCentroids) {
     Random random(6);
-    std::vector<Aabb> bounds;
-    for (int i = 0; i < 1000000; ++i) bounds.push_back(cube(glm::vec3(0.0f), random.uniform(0.001f, 1.0f)));
+    std::vector<Aabb> bounds(1000000);
+    for (Aabb& box : bounds) box = cube(glm::vec3(0.0f), random.uniform(0.001f, 1.0f));
     const std::clock_t start = std::clock();
     const Bvh bvh = buildBinned(bounds);
     const double cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -175,8 +175,8 @@ TEST(AccelBuild, IdenticalBoxes) { buildAndCheck(std::vector<Aabb>(100000, cube(
 
 TEST(AccelBuild, PointsAndFlatBoxes) {
     Random random(7);
-    std::vector<Aabb> bounds;
-    for (int i = 0; i < 1000; ++i) bounds.push_back(cube(random.inCube(-1.0f, 1.0f), 0.0f));
+    std::vector<Aabb> bounds(1000);
+    for (Aabb& box : bounds) box = cube(random.inCube(-1.0f, 1.0f), 0.0f);
     buildAndCheck(bounds);
     for (Aabb& box : bounds) box.lo.y = box.hi.y = 0.0f;
     buildAndCheck(bounds);

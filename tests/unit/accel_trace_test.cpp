@@ -205,7 +205,7 @@ TEST(AccelTrace, DragonAgreesWithOracle) {
 TestMesh gridOfCubes() {
     TestMesh mesh;
     for (int i = 0; i < 64; ++i) {
-        const glm::vec3 lo(2 * (i % 4), 2 * (i / 4 % 4), 2 * (i / 16));
+        const glm::vec3 lo = 2.0f * glm::vec3(glm::ivec3(i, i >> 2, i >> 4) & 3);
         for (int axis = 0; axis < 3; ++axis)
             for (const float side : {0.0f, 1.0f}) {
                 glm::vec3 a(0.0f);

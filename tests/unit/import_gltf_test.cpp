@@ -242,6 +242,24 @@ TEST(ImportGltf, PunctualLights) {
     EXPECT_TRUE(anyContains(scene.warnings, "negative intensity"));
 }
 
+/// 40 levels that each scale by 1e10: beyond the range of a double.
+TEST(ImportGltf, TransformsThatOverflowAreLeftOut) {
+    const ScratchFolder folder;
+    Gltf gltf;
+    gltf.mesh(gltf.trianglePrimitive());
+    gltf.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    gltf.json["nodes"] = {{{"mesh", 0}}};
+    for (int i = 1; i <= 40; ++i)
+        gltf.json["nodes"].push_back(
+            {{"children", {i + 1}}, {"scale", {1e10, 1e10, 1e10}}, {"translation", {1, 0, 0}}});
+    gltf.json["nodes"].push_back({{"mesh", 0}, {"camera", 0}});
+    gltf.json["scenes"] = {{{"nodes", {0, 1}}}};
+    const Scene scene = importScene(gltf.write(folder));
+    EXPECT_EQ(scene.instances.size(), 1u);
+    EXPECT_TRUE(scene.cameras.empty());
+    EXPECT_TRUE(anyContains(scene.warnings, "camera")) << joined(scene.warnings);
+}
+
 TEST(ImportGltf, ANodeWithTwoParentsIsPlacedTwice) {
     const ScratchFolder folder;
     Gltf gltf;
