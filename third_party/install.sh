@@ -10,7 +10,8 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   exit 0
 fi
 
-installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+installed_list=" $(dpkg-query -W -f='${db:Status-Status} ${Package} ' 2>/dev/null) "
+installed() { [[ "$installed_list" == *" installed $1 "* ]]; }
 available() { [ -n "$(apt-cache madison "$1" 2>/dev/null)" ]; }
 mesa_version() { dpkg-query -W -f='${Version}' mesa-vulkan-drivers 2>/dev/null || echo 0; }
 mesa_is_old() { dpkg --compare-versions "$(mesa_version)" lt "$minimum_mesa"; }

@@ -12,8 +12,6 @@ namespace {
 
 constexpr float kPi = glm::pi<float>();
 
-std::vector<glm::vec2> line(glm::vec2 a, glm::vec2 b) { return {a, b}; }
-
 /// A quarter or half round standing out of a lathe: convex, from `lowY` to `highY`.
 std::vector<glm::vec2> torusRoll(float radius, float lowY, float highY) {
     const float r = 0.5f * (highY - lowY);

@@ -126,7 +126,7 @@ GltfWriter makeCourtyard() {
     tbb::parallel_invoke([&] { statue = makeStatue(); }, [&] { palette = addPalette(gltf); });
     Builder builder(gltf, palette);
     gltf.addCamera("courtyard", {2.7f, 1.45f, 9.05f}, {3.1f, 1.82f, 0.0f}, glm::radians(39.0f), kAspect);
-    gltf.addCamera("statue", {1.5f, 2.1f, 2.3f}, {0.05f, 3.25f, -3.2f}, glm::radians(36.0f), kAspect);
+    gltf.addCamera("statue", {1.3f, 2.3f, 2.3f}, {0.05f, 3.55f, -3.2f}, glm::radians(29.0f), kAspect);
     gltf.addCamera("arcade", {-7.9f, 1.9f, 9.3f}, {-7.2f, 1.8f, 0.0f}, glm::radians(48.0f), kAspect);
     const BuildingMeshes shared = addBuilding(builder);
     addTower(builder, shared.archWall, shared.archStones, shared.pier);

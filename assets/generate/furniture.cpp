@@ -8,8 +8,6 @@ namespace {
 constexpr float kDoorHalfWidth = 0.55f;
 constexpr float kDoorSpringing = 1.75f;
 
-std::vector<glm::vec2> line(glm::vec2 a, glm::vec2 b) { return {a, b}; }
-
 /// Outline of an arched door, counter-clockwise from the lower left, grown by `margin`.
 std::vector<glm::vec2> doorOutline(float margin) {
     const float halfWidth = kDoorHalfWidth + margin;

@@ -208,6 +208,8 @@ Geometry torus(float radius, float halfWidth, float halfHeight, uint32_t segment
     return lathe({section}, segments);
 }
 
+std::vector<glm::vec2> line(glm::vec2 a, glm::vec2 b) { return {a, b}; }
+
 std::vector<glm::vec2> profileArc(glm::vec2 centre, float radius, float fromDegrees, float toDegrees, uint32_t steps) {
     std::vector<glm::vec2> points;
     for (uint32_t i = 0; i <= steps; ++i) {

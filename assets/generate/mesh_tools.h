@@ -17,7 +17,7 @@ struct Geometry {
     std::vector<glm::uvec3> triangles;
 };
 
-/// One level of a profile: a smooth stretch of a moulding. Consecutive stretches meet in a sharp edge.
+/// An outline as smooth stretches, each a row of points; consecutive stretches meet in a sharp edge.
 using Profile = std::vector<std::vector<glm::vec2>>;
 
 /// Appends `part`, moved by `transform` (rotation, translation and any scale; mirroring turns the triangles round).
@@ -65,8 +65,15 @@ Geometry sphere(float radius, uint32_t segments, uint32_t rings);
 /// Torus about +Y with an elliptic cross-section: `halfWidth` radially, `halfHeight` along Y.
 Geometry torus(float radius, float halfWidth, float halfHeight, uint32_t segments, uint32_t sides);
 
+/// A straight stretch of a profile.
+std::vector<glm::vec2> line(glm::vec2 a, glm::vec2 b);
+
 /// A smooth stretch of a profile: points on a circular arc about `centre`, angles in degrees from +x towards +y.
 std::vector<glm::vec2> profileArc(glm::vec2 centre, float radius, float fromDegrees, float toDegrees, uint32_t steps);
+
+/// Catmull-Rom curve through `knots` (two or more), `steps` points a span.
+template <typename Vector>
+std::vector<Vector> catmullRom(const std::vector<Vector>& knots, int steps);
 
 /// Translation, rotation about +Y in degrees, and scale, in glTF's order T * R * S.
 glm::mat4 place(glm::vec3 position, float yawDegrees = 0.0f, glm::vec3 scale = glm::vec3(1.0f));
@@ -85,6 +92,25 @@ Geometry parametricSurface(uint32_t columns, uint32_t rows, Point&& point) {
     for (uint32_t j = 0; j < rows; ++j) stitchRows(g, j * (columns + 1), (j + 1) * (columns + 1), columns + 1);
     smoothNormals(g);
     return g;
+}
+
+template <typename Vector>
+std::vector<Vector> catmullRom(const std::vector<Vector>& knots, int steps) {
+    const int spans = static_cast<int>(knots.size()) - 1;
+    const auto knot = [&](int i) { return knots[static_cast<size_t>(glm::clamp(i, 0, spans))]; };
+    std::vector<Vector> points;
+    for (int i = 0; i < steps * spans; ++i) {
+        const int k = i / steps;
+        const float t = static_cast<float>(i % steps) / static_cast<float>(steps);
+        const Vector a = knot(k - 1);
+        const Vector b = knot(k);
+        const Vector c = knot(k + 1);
+        const Vector d = knot(k + 2);
+        points.push_back(0.5f * (2.0f * b + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t +
+                                 (3.0f * b - a - 3.0f * c + d) * t * t * t));
+    }
+    points.push_back(knots.back());
+    return points;
 }
 
 }  // namespace raylab::assets

@@ -7,28 +7,10 @@
 namespace raylab::assets {
 namespace {
 
-std::vector<glm::vec2> line(glm::vec2 a, glm::vec2 b) { return {a, b}; }
+using Outline = std::vector<glm::vec2>;
 
-/// Catmull-Rom curve through `knots`, `steps` points a span: a thrown or blown outline.
-std::vector<glm::vec2> curve(const std::vector<glm::vec2>& knots, int steps) {
-    std::vector<glm::vec2> points;
-    const auto knot = [&knots](int i) {
-        return knots[static_cast<size_t>(glm::clamp(i, 0, static_cast<int>(knots.size()) - 1))];
-    };
-    for (int i = 0; i + 1 < static_cast<int>(knots.size()); ++i) {
-        for (int k = 0; k < steps; ++k) {
-            const float t = static_cast<float>(k) / static_cast<float>(steps);
-            const glm::vec2 a = knot(i - 1);
-            const glm::vec2 b = knot(i);
-            const glm::vec2 c = knot(i + 1);
-            const glm::vec2 d = knot(i + 2);
-            points.push_back(0.5f * (2.0f * b + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t +
-                                     (3.0f * b - a - 3.0f * c + d) * t * t * t));
-        }
-    }
-    points.push_back(knots.back());
-    return points;
-}
+/// A thrown or blown outline.
+Outline curve(const Outline& knots, int steps) { return catmullRom(knots, steps); }
 
 glm::mat4 turned(float degrees, glm::vec3 axis) { return glm::rotate(glm::mat4(1.0f), glm::radians(degrees), axis); }
 
@@ -92,24 +74,6 @@ Geometry glassVase() {
                {0.100f, 0.532f}, {0.096f, 0.534f}, {0.070f, 0.506f}, {0.049f, 0.45f},  {0.055f, 0.40f},
                {0.107f, 0.30f},  {0.127f, 0.19f},  {0.096f, 0.10f},  {0.055f, 0.055f}, {0.0f, 0.045f}},
               8)};
-    return lathe(profile, 96);
-}
-
-Geometry footedBowl() {
-    const Profile profile = {line({0.0f, 0.0f}, {0.10f, 0.0f}), curve({{0.10f, 0.0f},
-                                                                       {0.10f, 0.012f},
-                                                                       {0.05f, 0.03f},
-                                                                       {0.030f, 0.06f},
-                                                                       {0.045f, 0.085f},
-                                                                       {0.14f, 0.115f},
-                                                                       {0.215f, 0.175f},
-                                                                       {0.225f, 0.20f},
-                                                                       {0.218f, 0.203f},
-                                                                       {0.205f, 0.178f},
-                                                                       {0.13f, 0.126f},
-                                                                       {0.05f, 0.105f},
-                                                                       {0.0f, 0.102f}},
-                                                                      8)};
     return lathe(profile, 96);
 }
 

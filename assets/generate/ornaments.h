@@ -9,13 +9,10 @@ namespace raylab::assets {
 /// Terracotta pot with a rolled rim, its earth separately.
 Geometry plantPot();
 Geometry potEarth();
-constexpr float kPotHeight = 0.62f;
 /// Tall two-handled jar.
 Geometry amphora();
 /// Blown vase: one closed surface, outside and inside, so that it refracts as a wall of glass.
 Geometry glassVase();
-/// Shallow footed bowl, closed.
-Geometry footedBowl();
 /// Armillary sphere on a baluster stand: rings, axis and a ball at the centre. Height about 0.78.
 Geometry armillary();
 /// Small ring for a ball to rest on.

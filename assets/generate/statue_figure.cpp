@@ -39,26 +39,6 @@ float folds(float phase, float period, uint32_t seed) {
     return ridge * (0.35f + 0.65f * hash01(id, 7, seed));
 }
 
-/// Catmull-Rom curve through `knots`, `steps` points a span.
-std::vector<glm::vec3> smoothPath(const std::vector<glm::vec3>& knots, int steps) {
-    const auto knot = [&knots](int i) {
-        return knots[static_cast<size_t>(glm::clamp(i, 0, static_cast<int>(knots.size()) - 1))];
-    };
-    std::vector<glm::vec3> points;
-    for (int i = 0; i < steps * (static_cast<int>(knots.size()) - 1); ++i) {
-        const int k = i / steps;
-        const float t = static_cast<float>(i % steps) / static_cast<float>(steps);
-        const glm::vec3 a = knot(k - 1);
-        const glm::vec3 b = knot(k);
-        const glm::vec3 c = knot(k + 1);
-        const glm::vec3 d = knot(k + 2);
-        points.push_back(0.5f * (2.0f * b + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t +
-                                 (3.0f * b - a - 3.0f * c + d) * t * t * t));
-    }
-    points.push_back(knots.back());
-    return points;
-}
-
 std::vector<glm::vec3> bezier(glm::vec3 a, glm::vec3 b, glm::vec3 c, int steps) {
     std::vector<glm::vec3> points;
     for (int i = 0; i <= steps; ++i) {
@@ -89,19 +69,19 @@ Figure::Figure() : bone_(wingBone(1.0f)) {
     strand({-0.14f, 0.90f, 0.06f}, {-0.21f, 0.55f, 0.02f}, {-0.25f, 0.05f, -0.08f}, 0.008f, 0.030f);
     strand({-0.16f, 0.90f, 0.00f}, {-0.24f, 0.55f, -0.08f}, {-0.31f, 0.05f, -0.26f}, 0.008f, 0.032f);
     strand({-0.13f, 0.88f, 0.10f}, {-0.19f, 0.50f, 0.13f}, {-0.20f, 0.05f, 0.05f}, 0.006f, 0.022f);
-    mantlePath_ = smoothPath({{-0.19f, 0.99f, -0.06f},
-                              {-0.165f, 0.985f, 0.07f},
-                              {-0.08f, 0.955f, 0.145f},
-                              {0.02f, 0.925f, 0.15f},
-                              {0.12f, 0.90f, 0.115f},
-                              {0.19f, 0.885f, 0.02f},
-                              {0.225f, 0.85f, -0.12f},
-                              {0.245f, 0.79f, -0.26f},
-                              {0.28f, 0.73f, -0.39f},
-                              {0.345f, 0.685f, -0.52f},
-                              {0.40f, 0.67f, -0.66f},
-                              {0.42f, 0.70f, -0.81f}},
-                             3);
+    mantlePath_ = catmullRom<glm::vec3>({{-0.19f, 0.99f, -0.06f},
+                                         {-0.165f, 0.985f, 0.07f},
+                                         {-0.08f, 0.955f, 0.145f},
+                                         {0.02f, 0.925f, 0.15f},
+                                         {0.12f, 0.90f, 0.115f},
+                                         {0.19f, 0.885f, 0.02f},
+                                         {0.225f, 0.85f, -0.12f},
+                                         {0.245f, 0.79f, -0.26f},
+                                         {0.28f, 0.73f, -0.39f},
+                                         {0.345f, 0.685f, -0.52f},
+                                         {0.40f, 0.67f, -0.66f},
+                                         {0.42f, 0.70f, -0.81f}},
+                                        3);
 }
 
 float Figure::legs(glm::vec3 p) const {

@@ -87,14 +87,12 @@ shared::TraceInstance traceInstance(const TriangleTree& tree, const glm::mat4& o
     return record;
 }
 
-/// Box of a box after a transform, widened by the rounding of eight corners in binary32.
-Aabb transformedBounds(const Aabb& box, const glm::mat4& matrix) {
+/// World-space box of an instance's vertices, widened by the rounding of the ray's way into object space.
+Aabb worldBounds(const Mesh& mesh, const glm::mat4& matrix) {
     const glm::dmat4 m(matrix);
     glm::dvec3 lo(1e300), hi(-1e300);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p((corner & 1) != 0 ? box.hi.x : box.lo.x, (corner & 2) != 0 ? box.hi.y : box.lo.y,
-                           (corner & 4) != 0 ? box.hi.z : box.lo.z);
-        const glm::dvec3 q(m * glm::dvec4(p, 1.0));
+    for (const glm::vec3& position : mesh.positions) {
+        const glm::dvec3 q(m * glm::dvec4(position, 1.0));
         lo = glm::min(lo, q);
         hi = glm::max(hi, q);
     }
@@ -106,6 +104,7 @@ Aabb transformedBounds(const Aabb& box, const glm::mat4& matrix) {
 void buildUpper(const Scene& scene, const std::vector<int64_t>& treeOfMesh, const BvhConfig& config, TraceData& data) {
     std::vector<shared::TraceInstance> records;
     std::vector<Aabb> bounds;
+    std::vector<const Instance*> shown;
     for (const TriangleTree& tree : data.trees)
         if (tree.merged) {
             records.push_back(traceInstance(tree, glm::mat4(1.0f), shared::kInheritInstance));
@@ -116,8 +115,13 @@ void buildUpper(const Scene& scene, const std::vector<int64_t>& treeOfMesh, cons
         if (treeOfMesh[instance.mesh] < 0) continue;
         const TriangleTree& tree = data.trees[static_cast<size_t>(treeOfMesh[instance.mesh])];
         records.push_back(traceInstance(tree, instance.objectToWorld, i));
-        bounds.push_back(transformedBounds(tree.bvh.nodes[0].bounds, instance.objectToWorld));
+        shown.push_back(&instance);
     }
+    bounds.resize(records.size());
+    const size_t first = records.size() - shown.size();
+    tbb::parallel_for(size_t{0}, shown.size(), [&](size_t i) {
+        bounds[first + i] = worldBounds(scene.meshes[shown[i]->mesh], shown[i]->objectToWorld);
+    });
     BvhConfig upperConfig = config;
     upperConfig.maxLeafSize = 1;
     upperConfig.maxDepth = kUpperDepth;
@@ -163,8 +167,8 @@ TraceData buildTraceData(const Scene& scene, const BvhConfig& config) {
         data.grid = data.trees[0].grid;
         data.instances.push_back(traceInstance(data.trees[0], glm::mat4(1.0f), shared::kInheritInstance));
     }
-    // A walk keeps one entry a level, the bottom, the way out of an instance, and writes one entry past the top.
-    data.stackEntries = data.upperDepth + deepest(data.trees) + 4;
+    // A walk keeps one entry a level and the bottom, and writes one entry past the top.
+    data.stackEntries = data.upperDepth + deepest(data.trees) + 2;
     return data;
 }
 

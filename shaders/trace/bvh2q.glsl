@@ -10,10 +10,8 @@
 const uint kLeafBit = 0x80000000u;
 const uint kLeafCountShift = 27;
 const uint kLeafFirstMask = 0x07ffffffu;
-// References that no tree contains (a leaf of 16 slots at the very end of the range): what the stack's bottom and the
-// way out of an instance look like.
+// A reference that no tree contains (a leaf of 16 slots at the very end of the range): the stack's bottom.
 const uint kEndOfWalk = 0xffffffffu;
-const uint kLeaveInstance = 0xfffffffeu;
 
 // Relative error of (origin - o) * r + q * step * r, five roundings, on both ends of the interval.
 const float kSlabPad = 1.000001;
@@ -40,24 +38,19 @@ vec2 slab(GridRay ray, uvec3 box, float tMin, float tMax) {
     return vec2(max(max(near.x, near.y), max(near.z, tMin)), min(min(far.x, far.y), min(far.z, tMax)) * kSlabPad);
 }
 
-// The ray in the space of the tree that is being walked.
-struct Walk {
+GridRay select(bool second, GridRay a, GridRay b) {
+    return GridRay(second ? b.scale : a.scale, second ? b.offset : a.offset);
+}
+
+// The ray in the space of a tree over triangles.
+struct LowerRay {
     GridRay grid;
     ShearedRay sheared;
     uint instance;
 };
 
-Walk enterTree(vec3 origin, vec3 direction, vec3 gridOrigin, vec3 gridStep, uint instance) {
-    return Walk(gridRay(origin, direction, gridOrigin, gridStep), shearRay(origin, direction), instance);
-}
-
-Walk enterRoot(Ray ray) {
-    return enterTree(ray.origin, ray.direction, frame.gridOrigin, frame.gridStep, kInheritInstance);
-}
-
-// Down into the tree of leaf `slot` of the upper tree, or back up where `leave`. One text for both, because lavapipe runs
-// both sides of every branch. `root`: of the tree that is entered.
-Walk changeTree(Ray ray, bool leave, uint slot, out uint root) {
+// The ray below leaf `slot` of the upper tree. `root`: of the tree there.
+LowerRay enterInstance(Ray ray, uint slot, out uint root) {
     int at = int(slot * kWordsTraceInstance);
     vec4 row0 = uintBitsToFloat(texelFetch(traceInstanceWords, at));
     vec4 row1 = uintBitsToFloat(texelFetch(traceInstanceWords, at + 1));
@@ -68,51 +61,52 @@ Walk changeTree(Ray ray, bool leave, uint slot, out uint root) {
     vec3 origin = vec3(dot(row0, o), dot(row1, o), dot(row2, o));
     vec3 direction = vec3(dot(row0.xyz, ray.direction), dot(row1.xyz, ray.direction), dot(row2.xyz, ray.direction));
     root = a.w;
-    return enterTree(leave ? ray.origin : origin, leave ? ray.direction : direction,
-                     leave ? frame.gridOrigin : uintBitsToFloat(a.xyz), leave ? frame.gridStep : uintBitsToFloat(b.xyz),
-                     leave ? kInheritInstance : b.w);
+    return LowerRay(gridRay(origin, direction, uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)),
+                    shearRay(origin, direction), b.w);
 }
 
 bool findHit(Ray ray, bool anyHit, Cursor after, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kEndOfWalk) return false;
-    Walk state = enterRoot(ray);
+    GridRay world = gridRay(ray.origin, ray.direction, frame.gridOrigin, frame.gridStep);
+    LowerRay lower = LowerRay(world, shearRay(ray.origin, ray.direction), kInheritInstance);
     bool upper = needs(kNeedInstancing) && frame.hasUpperTree != 0u;
     uint stack[kStackSize];
     stack[0] = kEndOfWalk;
-    uint top = 0u;  // of the stack: the entry that is popped next
+    int top = 0;    // of the stack: the entry that is popped next
+    int floor = -1;  // below an instance: the topmost entry of the upper tree; popping it leads back there
     uint node = frame.root;
     while (node != kEndOfWalk) {
         while (node < kLeafBit) {
             uvec4 w0 = texelFetch(nodeWords, int(node * 2u));
             uvec4 w1 = texelFetch(nodeWords, int(node * 2u + 1u));
-            vec2 t0 = slab(state.grid, w0.xyz, ray.tMin, hit.t);
-            vec2 t1 = slab(state.grid, w1.xyz, ray.tMin, hit.t);
+            GridRay grid = lower.grid;
+            if (needs(kNeedInstancing)) grid = select(upper, lower.grid, world);
+            vec2 t0 = slab(grid, w0.xyz, ray.tMin, hit.t);
+            vec2 t1 = slab(grid, w1.xyz, ray.tMin, hit.t);
             bool hit0 = t0.x <= t0.y;
             bool hit1 = t1.x <= t1.y;
             bool secondFirst = hit1 && (!hit0 || t1.x < t0.x);
+            bool pop = !hit0 && !hit1;
+            if (needs(kNeedInstancing)) upper = upper || (pop && top <= floor);
             uint popped = stack[top];
-            stack[top + 1u] = secondFirst ? w0.w : w1.w;
+            stack[top + 1] = secondFirst ? w0.w : w1.w;
             node = secondFirst ? w1.w : (hit0 ? w0.w : popped);
-            top += hit0 && hit1 ? 1u : (hit0 || hit1 ? 0u : 0xffffffffu);
+            top += hit0 && hit1 ? 1 : (pop ? -1 : 0);
         }
         if (node == kEndOfWalk) break;
-        bool leave = node == kLeaveInstance;
-        if (needs(kNeedInstancing) && (upper || leave)) {
-            uint root;
-            state = changeTree(ray, leave, leave ? 0u : node & kLeafFirstMask, root);
-            uint popped = stack[top];
-            stack[top + 1u] = kLeaveInstance;
-            node = leave ? popped : root;
-            top += leave ? 0xffffffffu : 1u;
-            upper = leave;
+        uint first = node & kLeafFirstMask;
+        if (needs(kNeedInstancing) && upper) {
+            lower = enterInstance(ray, first, node);
+            floor = top;
+            upper = false;
             continue;
         }
-        uint first = node & kLeafFirstMask;
         uint last = first + ((node >> kLeafCountShift) & 15u);
-        for (uint slot = first; slot <= last; ++slot) testTriangle(ray, state.sheared, slot, state.instance, after, hit);
+        for (uint slot = first; slot <= last; ++slot) testTriangle(ray, lower.sheared, slot, lower.instance, after, hit);
         if (anyHit && hit.instance != kInheritInstance) return true;
+        if (needs(kNeedInstancing)) upper = top <= floor;
         node = stack[top--];
     }
     return hit.instance != kInheritInstance;
