@@ -73,9 +73,10 @@ TEST(Layering, OnlyTheEditorKnowsWindows) {
 }
 
 TEST(Layering, OnlyGpuAndRenderKnowVulkan) {
-    for (const Include& include : includesBelow("engine"))
-        if (include.included.rfind("vulkan", 0) == 0)
-            EXPECT_TRUE(include.folder == "engine/gpu" || include.folder == "engine/render") << include.file;
+    for (const Include& include : includesBelow("engine")) {
+        if (include.included.rfind("vulkan", 0) != 0) continue;
+        EXPECT_TRUE(include.folder == "engine/gpu" || include.folder == "engine/render") << include.file;
+    }
 }
 
 TEST(Layering, SharedHeadersIncludeTheirSiblingsAlone) {

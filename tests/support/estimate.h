@@ -1,0 +1,25 @@
+#pragma once
+
+#include "engine/render/film.h"
+
+namespace raylab::support {
+
+/// The mean of pixels that all estimate the same quantity, or parts of the same integral.
+struct Estimate {
+    double mean = 0.0;
+    double standardError = 0.0;
+};
+
+/// Over all pixels of one channel; the error from the variance within the pixels. Stratified samples do better than it
+/// says, never worse.
+Estimate estimateOf(const FilmImage& film, int channel = 0);
+
+/// The battery's criterion (design: batteries.md): |mean - exact| at most 4 standard errors (6e-5 to fail at random)
+/// and at most 0.5 %; rounding may move the mean by 2e-5. Fails also where the standard error is above 0.25 %: a test
+/// that cannot tell.
+void expectExact(const FilmImage& film, double exact, const char* what = "");
+
+/// Every pixel and channel, to a relative tolerance: for estimators without variance.
+void expectEveryPixel(const FilmImage& film, double exact, double relativeTolerance, const char* what = "");
+
+}  // namespace raylab::support
