@@ -19,7 +19,7 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"tracer", &S::tracer, "", "how rays find triangles", 0, 0, tracerNames()},
         {"needs", &S::needs, "", "what the kernel contains: what the scene needs, or everything", 0, 0, {"scene", "full"}},
         {"camera", &S::camera, "", "number or name of a camera of the scene, or px,py,pz,tx,ty,tz,fov: position, target, vertical degrees"},
-        {"time-limit", &S::timeLimit, "s", "stop rendering after so long; 0: no limit", 0, 1e9},
+        {"time-limit", &S::timeLimit, "s", "stop rendering after so long, once every pixel has a sample; 0: no limit", 0, 1e9},
         {"target-error", &S::targetError, "", "stop where the estimated relative error is below; 0: no target", 0, 1e3},
         {"environment", &S::environment, "", "auto (the scene's, or a sky where nothing else gives light), none, sky, white, or an image file"},
         {"environment-scale", &S::environmentScale, "", "multiplies the environment's radiance", 0, 1e6},

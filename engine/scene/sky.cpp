@@ -10,7 +10,7 @@ namespace raylab {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kUnitKcd = 20.0;  // kcd/m^2 of one unit of radiance
+constexpr double kUnitKcd = 14.0;  // kcd/m^2 of one unit of radiance
 constexpr double kSunRadius = 0.2666 * kPi / 180.0;
 constexpr double kSolarIlluminanceKlux = 133.0;  // outside the atmosphere
 constexpr double kGroundAlbedo = 0.25;

@@ -11,15 +11,12 @@ using Furnace = GpuTest;
 
 /// A1: under a white sky a convex Lambertian body is as bright as its albedo, everywhere.
 TEST_F(Furnace, ConvexLambertianIsItsAlbedo) {
-    for (const float albedo : {0.0f, 0.18f, 0.8f, 1.0f}) {
-        Scene scene;
-        scene.environment = constantEnvironment(1.0f);
-        const uint32_t material = addMaterial(scene, lambert(albedo));
-        addMesh(scene, meshOf(accel_test::sphere(1.0f, 24, 48, glm::vec3(0.0f)), material));
-        lookAt(scene, {0.0f, 0.5f, 4.0f}, glm::vec3(0.0f), 0.3f);
-        expectEveryPixel(renderFilm(device_, scene, smallImage(16, 16, 64)), static_cast<double>(albedo), 2e-6,
-                         "albedo");
-    }
+    Scene scene;
+    scene.environment = constantEnvironment(1.0f);
+    const glm::vec3 albedo(0.18f, 0.8f, 1.0f);
+    addMesh(scene, meshOf(accel_test::sphere(1.0f, 24, 48, glm::vec3(0.0f)), addMaterial(scene, lambert(albedo))));
+    lookAt(scene, {0.0f, 0.5f, 4.0f}, glm::vec3(0.0f), 0.3f);
+    expectEveryPixel(renderFilm(device_, scene, smallImage(16, 16, 64)), glm::dvec3(albedo), 2e-6);
 }
 
 /// A1 where light goes to and fro: an open white box loses nothing, however many bounces it takes to leave.
@@ -36,19 +33,19 @@ TEST_F(Furnace, OpenWhiteBoxIsWhite) {
 /// A2: a closed box whose walls emit 1 and reflect rho, after n bounces at most; roulette from the first on must not
 /// bias.
 TEST_F(Furnace, ClosedBoxSumsTheGeometricSeries) {
-    for (const float rho : {0.5f, 0.8f})
-        for (const int depth : {0, 1, 2, 5, 20}) {
-            Scene scene;
-            Material wall = lamp(1.0f, true);
-            wall.baseColor = glm::vec3(rho);
-            addMesh(scene, box(addMaterial(scene, wall), glm::vec3(-1.0f, -1.5f, -2.0f), glm::vec3(1.0f)));
-            lookAt(scene, {0.2f, 0.1f, 0.3f}, glm::vec3(-1.0f, -0.5f, -2.0f), 1.2f);
-            RenderSettings settings = smallImage(16, depth == 0 ? 4 : 256, depth);
-            settings.rouletteDepth = 1;
-            const double r = static_cast<double>(rho);
-            expectExact(renderFilm(device_, scene, settings), (1.0 - std::pow(r, depth + 1)) / (1.0 - r),
-                        ("rho " + std::to_string(rho) + ", depth " + std::to_string(depth)).c_str());
-        }
+    const glm::dvec3 rho(0.25, 0.5, 0.75);
+    for (const int depth : {0, 1, 2, 5, 20}) {
+        Scene scene;
+        Material wall = lambert(glm::vec3(rho));
+        wall.emission = glm::vec3(1.0f);
+        wall.doubleSided = true;
+        addMesh(scene, box(addMaterial(scene, wall), {-1.0f, -1.5f, -2.0f}, glm::vec3(1.0f)));
+        lookAt(scene, {0.2f, 0.1f, 0.3f}, {-1.0f, -0.5f, -2.0f}, 1.2f);
+        RenderSettings settings = smallImage(16, 256, depth);
+        settings.rouletteDepth = 1;
+        const glm::dvec3 exact = (1.0 - glm::pow(rho, glm::dvec3(depth + 1))) / (1.0 - rho);
+        expectExact(renderFilm(device_, scene, settings), exact, "depth " + std::to_string(depth));
+    }
 }
 
 /// A14: directional albedo of the single-scatter GGX reflection with F = 1 at the cosine `mu`, by quadrature over the
@@ -81,18 +78,17 @@ double ggxAlbedo(double mu, double alpha) {
 TEST_F(Furnace, WhiteMetalReflectsTheDirectionalAlbedoOfGgx) {
     EXPECT_NEAR(ggxAlbedo(1.0, 1.0), 1.0 - std::log(2.0), 1e-4);
     for (const float alpha : {0.25f, 0.5f, 1.0f})
-        for (const double mu : {1.0, 0.5, 0.1}) {
+        for (const double mu : {1.0, 0.3}) {
             Scene scene;
             scene.environment = constantEnvironment(1.0f);
             Material metal;
             metal.metallic = 1.0f;
             metal.roughness = std::sqrt(alpha);
             addMesh(scene, floorQuad(addMaterial(scene, metal), 10.0f));
-            const auto height = static_cast<float>(mu), side = static_cast<float>(std::sqrt(1.0 - mu * mu));
-            lookAtPoint(scene, {side, height, 0.0f}, glm::vec3(0.0f));
-            const FilmImage film = renderFilm(device_, scene, smallImage(16, 512, 1));
+            lookAtPoint(scene, glm::dvec3(std::sqrt(1.0 - mu * mu), mu, 0.0), glm::vec3(0.0f));
+            const FilmImage film = renderFilm(device_, scene, smallImage(16, 1600, 1));
             expectExact(film, ggxAlbedo(mu, static_cast<double>(alpha)),
-                        ("alpha " + std::to_string(alpha) + ", cosine " + std::to_string(mu)).c_str());
+                        "alpha " + std::to_string(alpha) + ", cosine " + std::to_string(mu));
             EXPECT_LE(estimateOf(film).mean, 1.0);
         }
 }

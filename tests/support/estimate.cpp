@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace raylab::support {
@@ -20,28 +21,41 @@ Estimate estimateOf(const FilmImage& film, int channel) {
     return estimate;
 }
 
-void expectExact(const FilmImage& film, double exact, const char* what) {
-    const Estimate estimate = estimateOf(film);
-    const double error = std::abs(estimate.mean - exact);
-    const double scale = std::abs(exact);
-    EXPECT_LE(error, 4.0 * estimate.standardError + 2e-5 * scale)
-        << what << ": " << estimate.mean << " +- " << estimate.standardError << ", exactly " << exact;
-    EXPECT_LE(error, 0.005 * scale) << what << ": " << estimate.mean << ", exactly " << exact;
-    EXPECT_LE(estimate.standardError, 0.0025 * scale) << what << ": too few samples to tell";
+void expectExact(const FilmImage& film, glm::dvec3 exact, const std::string& what) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const Estimate estimate = estimateOf(film, channel);
+        const double error = std::abs(estimate.mean - exact[channel]);
+        const double scale = std::abs(exact[channel]);
+        EXPECT_LE(error, 4.0 * estimate.standardError + 2e-5 * scale)
+            << what << ": " << estimate.mean << " +- " << estimate.standardError << ", exactly " << exact[channel];
+        EXPECT_LE(error, 0.005 * scale) << what << ": " << estimate.mean << ", exactly " << exact[channel];
+        EXPECT_LE(estimate.standardError, 0.0025 * scale) << what << ": too few samples to tell";
+    }
     EXPECT_EQ(film.nonFinitePixels, 0u) << what;
 }
 
-void expectEveryPixel(const FilmImage& film, double exact, double relativeTolerance, const char* what) {
-    size_t wrong = 0;
-    double worst = 0.0;
-    for (const float value : film.mean.pixels) {
-        const double error = std::abs(static_cast<double>(value) - exact);
-        worst = std::max(worst, error);
-        if (!(error <= relativeTolerance * std::abs(exact))) ++wrong;
+void expectExact(const FilmImage& film, double exact, const std::string& what) {
+    expectExact(film, glm::dvec3(exact), what);
+}
+
+void expectEveryPixel(const FilmImage& film, glm::dvec3 exact, double relativeTolerance, const std::string& what) {
+    for (int channel = 0; channel < 3; ++channel) {
+        size_t wrong = 0;
+        double worst = 0.0;
+        for (size_t i = 0; i < film.mean.pixelCount(); ++i) {
+            const float value = film.mean.pixels[3 * i + static_cast<size_t>(channel)];
+            const double error = std::abs(static_cast<double>(value) - exact[channel]);
+            worst = std::max(worst, error);
+            if (!(error <= relativeTolerance * std::abs(exact[channel]))) ++wrong;
+        }
+        EXPECT_EQ(wrong, 0u) << what << ": of " << film.mean.pixelCount() << " pixels differ from " << exact[channel]
+                             << ", by up to " << worst;
     }
-    EXPECT_EQ(wrong, 0u) << what << ": of " << film.mean.pixels.size() << " values differ from " << exact
-                         << ", by up to " << worst;
     EXPECT_EQ(film.nonFinitePixels, 0u) << what;
+}
+
+void expectEveryPixel(const FilmImage& film, double exact, double relativeTolerance, const std::string& what) {
+    expectEveryPixel(film, glm::dvec3(exact), relativeTolerance, what);
 }
 
 }  // namespace raylab::support

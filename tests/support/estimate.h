@@ -1,5 +1,8 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <string>
+
 #include "engine/render/film.h"
 
 namespace raylab::support {
@@ -14,12 +17,14 @@ struct Estimate {
 /// says, never worse.
 Estimate estimateOf(const FilmImage& film, int channel = 0);
 
-/// The battery's criterion (design: batteries.md): |mean - exact| at most 4 standard errors (6e-5 to fail at random)
-/// and at most 0.5 %; rounding may move the mean by 2e-5. Fails also where the standard error is above 0.25 %: a test
-/// that cannot tell.
-void expectExact(const FilmImage& film, double exact, const char* what = "");
+/// The battery's criterion (design: batteries.md) in each channel: |mean - exact| at most 4 standard errors (6e-5 to
+/// fail at random) and at most 0.5 %; rounding may move the mean by 2e-5. Fails also where the standard error is above
+/// 0.25 %: a test that cannot tell.
+void expectExact(const FilmImage& film, glm::dvec3 exact, const std::string& what = "");
+void expectExact(const FilmImage& film, double exact, const std::string& what = "");
 
 /// Every pixel and channel, to a relative tolerance: for estimators without variance.
-void expectEveryPixel(const FilmImage& film, double exact, double relativeTolerance, const char* what = "");
+void expectEveryPixel(const FilmImage& film, glm::dvec3 exact, double relativeTolerance, const std::string& what = "");
+void expectEveryPixel(const FilmImage& film, double exact, double relativeTolerance, const std::string& what = "");
 
 }  // namespace raylab::support

@@ -4,9 +4,11 @@
 
 namespace raylab::support {
 
-Material lambert(float albedo) {
+Material lambert(float albedo) { return lambert(glm::vec3(albedo)); }
+
+Material lambert(glm::vec3 albedo) {
     Material material;
-    material.baseColor = glm::vec3(albedo);
+    material.baseColor = albedo;
     material.specular = 0.0f;
     return material;
 }

@@ -11,6 +11,7 @@ namespace raylab::support {
 constexpr double kPi = 3.14159265358979323846;
 
 /// Purely Lambertian.
+Material lambert(glm::vec3 albedo);
 Material lambert(float albedo);
 
 /// Albedo 0; emits from both faces where `doubleSided`.

@@ -61,10 +61,14 @@ Metadata resultMetadata(const RenderOptions& options, const RenderSettings& sett
 
 std::string summary(const RenderOptions& options, const RenderResult& r) {
     char text[256];
-    std::snprintf(text, sizeof(text), "%s  %u samples  %.2f s in all (import %.2f, build %.2f, upload %.2f, compile %.2f, render %.2f)  %.2f Mrays/s  noise %.2f%%",
+    std::snprintf(text, sizeof(text),
+                  "%s  %u samples  %.2f s in all (import %.2f, build %.2f, upload %.2f, compile %.2f, render %.2f)  %.2f Mrays/s",
                   options.output.c_str(), r.samples, r.totalSeconds, r.importSeconds, r.times.build, r.times.upload,
-                  r.times.compile, r.times.render, raysPerSecond(r) * 1e-6, 100.0 * r.image.estimatedRelativeError);
-    return text;
+                  r.times.compile, r.times.render, raysPerSecond(r) * 1e-6);
+    if (r.samples < 2) return text;
+    char noise[64];
+    std::snprintf(noise, sizeof(noise), "  noise %.2f%%", 100.0 * r.image.estimatedRelativeError);
+    return std::string(text) + noise;
 }
 
 ExitCode render(RenderOptions options) {

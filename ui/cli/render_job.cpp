@@ -61,7 +61,8 @@ std::string renderLoop(Renderer& renderer, const RenderSettings& settings, bool 
         const double error = noise.update(renderer, watch);
         progress.show(renderer.fractionDone(), renderer.completeSamples(), error);
         if (interrupted != 0) return "interrupt";
-        if (settings.timeLimit > 0.0 && watch.seconds() >= settings.timeLimit) return "time-limit";
+        const bool everyPixelHasOne = renderer.completeSamples() > 0;
+        if (settings.timeLimit > 0.0 && watch.seconds() >= settings.timeLimit && everyPixelHasOne) return "time-limit";
         if (settings.targetError > 0.0 && error >= 0.0 && error <= settings.targetError) return "target-error";
     }
     return "samples";
