@@ -37,7 +37,7 @@ Scene screenBeforeLamp(const Material& screen) {
     scene.textures = {holes()};
     addMesh(scene, floorQuad(addMaterial(scene, lamp(1.0f)), 5.0f, -1.0f));
     addMesh(scene, floorQuad(addMaterial(scene, screen), 0.5f));
-    lookAt(scene, {0.0f, 0.5f, 0.0f}, glm::vec3(0.0f), static_cast<float>(kPi / 2.0));
+    lookDown(scene, 0.5f);
     return scene;
 }
 
@@ -64,7 +64,7 @@ Scene screenBeforeSun(const Material& screen) {
     sun.kind = LightKind::directional;
     sun.intensity = glm::vec3(static_cast<float>(kPi));
     scene.lights = {sun};
-    lookAt(scene, {0.0f, 0.5f, 0.0f}, glm::vec3(0.0f), static_cast<float>(kPi / 2.0));
+    lookDown(scene, 0.5f);
     return scene;
 }
 

@@ -52,7 +52,7 @@ TEST_F(Dielectric, FresnelReflectanceAtOneFace) {
         Scene scene = blackenedGlass();
         const double angle = degrees * kPi / 180.0;
         lookAtPoint(scene, {4.0 * std::sin(angle), 4.0 * std::cos(angle), 0.0}, glm::vec3(0.0f));
-        const auto spp = static_cast<int64_t>(1024.0 * (1.0 - reflectance) / reflectance) + 64;
+        const auto spp = static_cast<int64_t>(650.0 * (1.0 - reflectance) / reflectance) + 64;
         expectExact(renderFilm(device_, scene, smallImage(16, spp, 8)), reflectance,
                     std::to_string(degrees) + " degrees");
     }

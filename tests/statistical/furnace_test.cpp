@@ -41,7 +41,7 @@ TEST_F(Furnace, ClosedBoxSumsTheGeometricSeries) {
         wall.doubleSided = true;
         addMesh(scene, box(addMaterial(scene, wall), {-1.0f, -1.5f, -2.0f}, glm::vec3(1.0f)));
         lookAt(scene, {0.2f, 0.1f, 0.3f}, {-1.0f, -0.5f, -2.0f}, 1.2f);
-        RenderSettings settings = smallImage(16, 256, depth);
+        RenderSettings settings = smallImage(16, 512, depth);
         settings.rouletteDepth = 1;
         const glm::dvec3 exact = (1.0 - glm::pow(rho, glm::dvec3(depth + 1))) / (1.0 - rho);
         expectExact(renderFilm(device_, scene, settings), exact, "depth " + std::to_string(depth));

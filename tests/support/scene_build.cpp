@@ -1,6 +1,7 @@
 #include "tests/support/scene_build.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace raylab::support {
 
@@ -84,7 +85,13 @@ void lookAt(Scene& scene, glm::vec3 position, glm::vec3 target, float fovYRadian
     scene.cameras = {Camera{"", position, target, {0.0f, 1.0f, 0.0f}, fovYRadians}};
 }
 
-void lookAtPoint(Scene& scene, glm::vec3 position, glm::vec3 target) { lookAt(scene, position, target, 1e-4f); }
+void lookDown(Scene& scene, float height) {
+    lookAt(scene, {0.0f, height, 0.0f}, glm::vec3(0.0f),
+           static_cast<float>(2.0 * std::atan(0.5 / static_cast<double>(height))));
+    scene.cameras[0].up = {0.0f, 0.0f, -1.0f};
+}
+
+void lookAtPoint(Scene& scene, glm::vec3 position, glm::vec3 target) { lookAt(scene, position, target, 1e-6f); }
 
 Environment constantEnvironment(float radiance) {
     Environment environment{Bitmap(1, 1, 3)};

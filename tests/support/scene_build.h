@@ -46,6 +46,9 @@ Mesh meshOf(const accel_test::TestMesh& mesh, uint32_t material);
 /// Replaces the cameras by one.
 void lookAt(Scene& scene, glm::vec3 position, glm::vec3 target, float fovYRadians);
 
+/// From above, +X to the right: a square image shows exactly the unit square of the plane y = 0 around the origin.
+void lookDown(Scene& scene, float height);
+
 /// A view so narrow that the whole image shows one point.
 void lookAtPoint(Scene& scene, glm::vec3 position, glm::vec3 target);
 

@@ -1,0 +1,189 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Reads one of every struct that C++ and GLSL share, by the kernels' own loads where there are any, and writes its scalars
+// in the order of their declaration. tests/unit/gpu_layout_test.cpp says what they must be.
+#include "lib/scene_buffers.glsl"
+
+layout(local_size_x = 1) in;
+layout(push_constant) uniform PushBlock { RenderPush push; };
+layout(set = 0, binding = kBindFilm, std430) readonly buffer FilmBlock { FilmPixel film; };
+layout(set = 0, binding = kBindRays, std430) readonly buffer RayBlock { RayData ray; };
+layout(set = 0, binding = kBindHits, std430) readonly buffer HitBlock { HitData hit; };
+layout(set = 0, binding = 20, std430) readonly buffer RaysPushBlock { RaysPush raysPush; };
+layout(set = 0, binding = 21, std430) readonly buffer TraceTriangleBlock { TraceTriangle traceTriangle; };
+layout(set = 0, binding = 22, std430) readonly buffer TraceInstanceBlock { TraceInstance traceInstance; };
+layout(set = 0, binding = 23, std430) readonly buffer TriangleBlock { TriangleData triangle; };
+layout(set = 0, binding = 24, std430) readonly buffer VertexBlock { VertexData vertex; };
+layout(set = 0, binding = 25, std430) readonly buffer TextureBlock { TextureData textureData; };
+layout(set = 0, binding = 26, std430) readonly buffer EmissiveBlock { EmissiveData emissive; };
+layout(set = 0, binding = 27, std430) readonly buffer PunctualBlock { PunctualData punctual; };
+layout(set = 0, binding = 28, std430) writeonly buffer ResultBlock { uint result[]; };
+
+uint next = 0u;
+
+void emit(uint v) { result[next++] = v; }
+void emit(float v) { emit(floatBitsToUint(v)); }
+void emit(vec3 v) {
+    emit(v.x);
+    emit(v.y);
+    emit(v.z);
+}
+void emit(vec4 v) {
+    emit(v.xyz);
+    emit(v.w);
+}
+
+void emitFrame() {
+    emit(frame.cameraPosition);
+    emit(frame.pixelSpread);
+    emit(frame.cameraRight);
+    emit(frame.width);
+    emit(frame.cameraUp);
+    emit(frame.height);
+    emit(frame.cameraForward);
+    emit(frame.seed);
+    emit(frame.tilesPerRow);
+    emit(frame.maxDepth);
+    emit(frame.rouletteDepth);
+    emit(frame.traceInstanceCount);
+    emit(frame.emissiveCount);
+    emit(frame.punctualCount);
+    emit(frame.environmentWidth);
+    emit(frame.environmentHeight);
+    emit(frame.shareEmissive);
+    emit(frame.sharePunctual);
+    emit(frame.shareEnvironment);
+    emit(frame.emissiveTotal);
+    emit(frame.environmentConstant);
+    emit(frame.sceneDiagonal);
+    emit(frame.gridOrigin);
+    emit(frame.root);
+    emit(frame.gridStep);
+    emit(frame.hasUpperTree);
+}
+
+void emitBuffers() {
+    emit(film.sumHi);
+    emit(film.count);
+    emit(film.sumLo);
+    emit(film.nonFinite);
+    emit(film.squareHi);
+    emit(film.rays);
+    emit(film.squareLo);
+    emit(film.padding);
+    emit(push.firstTile);
+    emit(push.firstRow);
+    emit(push.firstSample);
+    emit(push.sampleCount);
+    emit(ray.origin);
+    emit(ray.tMin);
+    emit(ray.direction);
+    emit(ray.tMax);
+    emit(hit.t);
+    emit(hit.u);
+    emit(hit.v);
+    emit(hit.instance);
+    emit(hit.primitive);
+    emit(hit.padding0);
+    emit(hit.padding1);
+    emit(hit.padding2);
+    emit(raysPush.count);
+    emit(raysPush.anyHit);
+}
+
+void emitTraversal() {
+    emit(traceTriangle.p0);
+    emit(traceTriangle.instance);
+    emit(traceTriangle.p1);
+    emit(traceTriangle.primitive);
+    emit(traceTriangle.p2);
+    emit(traceTriangle.alphaTested);
+    emit(traceInstance.worldToObject0);
+    emit(traceInstance.worldToObject1);
+    emit(traceInstance.worldToObject2);
+    emit(traceInstance.gridOrigin);
+    emit(traceInstance.root);
+    emit(traceInstance.gridStep);
+    emit(traceInstance.instance);
+    emit(traceInstance.firstTriangle);
+    emit(traceInstance.triangleCount);
+    emit(traceInstance.padding0);
+    emit(traceInstance.padding1);
+}
+
+void emitGeometry() {
+    InstanceData instance = loadInstance(1u);
+    emit(instance.objectToWorld0);
+    emit(instance.objectToWorld1);
+    emit(instance.objectToWorld2);
+    emit(instance.firstTriangle);
+    emit(instance.material);
+    emit(instance.flags);
+    emit(instance.padding);
+    emit(triangle.v0);
+    emit(triangle.v1);
+    emit(triangle.v2);
+    emit(triangle.padding);
+    emit(vertex.position);
+    emit(vertex.normal);
+    emit(vertex.u);
+    emit(vertex.v);
+    emit(vertex.tangent);
+    emit(vertex.padding);
+}
+
+void emitMaterials() {
+    MaterialData material = loadMaterial(1u);
+    emit(material.baseColor);
+    emit(material.alpha);
+    emit(material.emission);
+    emit(material.alphaCutoff);
+    emit(material.metallic);
+    emit(material.roughness);
+    emit(material.transmission);
+    emit(material.ior);
+    emit(material.specular);
+    emit(material.normalScale);
+    emit(material.emissionWeight);
+    emit(material.flags);
+    emit(material.baseColorTexture);
+    emit(material.metallicRoughnessTexture);
+    emit(material.normalTexture);
+    emit(material.emissionTexture);
+    emit(textureData.firstTexel);
+    emit(textureData.width);
+    emit(textureData.height);
+    emit(textureData.flags);
+}
+
+void emitLights() {
+    emit(emissive.p0);
+    emit(emissive.threshold);
+    emit(emissive.edge1);
+    emit(emissive.alias);
+    emit(emissive.edge2);
+    emit(emissive.material);
+    emit(emissive.instance);
+    emit(emissive.primitive);
+    emit(emissive.frontSign);
+    emit(emissive.padding);
+    emit(punctual.position);
+    emit(punctual.kind);
+    emit(punctual.direction);
+    emit(punctual.threshold);
+    emit(punctual.intensity);
+    emit(punctual.alias);
+    emit(punctual.probability);
+    emit(punctual.spotScale);
+    emit(punctual.spotOffset);
+    emit(punctual.padding);
+}
+
+void main() {
+    emitFrame();
+    emitBuffers();
+    emitTraversal();
+    emitGeometry();
+    emitMaterials();
+    emitLights();
+}

@@ -1,0 +1,188 @@
+#include <array>
+#include <bit>
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/pipeline.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/scene.h"
+#include "tests/support/gpu_test.h"
+
+namespace raylab::support {
+namespace {
+
+/// Gives each scalar a number of its own and keeps the bits in the order of assignment, which is the order of
+/// declaration and that of tests/shaders/layout.comp.
+class Numbering {
+public:
+    template <class... Fields>
+    void assign(Fields&... fields) {
+        (number(fields), ...);
+    }
+    const std::vector<uint32_t>& bits() const { return bits_; }
+
+private:
+    void number(uint32_t& value) {
+        value = static_cast<uint32_t>(bits_.size()) + 1000u;
+        bits_.push_back(value);
+    }
+    void number(float& value) {
+        value = static_cast<float>(bits_.size()) + 1000.5f;
+        bits_.push_back(std::bit_cast<uint32_t>(value));
+    }
+    void number(glm::vec3& value) { assign(value.x, value.y, value.z); }
+    void number(glm::vec4& value) { assign(value.x, value.y, value.z, value.w); }
+
+    std::vector<uint32_t> bits_;
+};
+
+struct Structs {
+    shared::FrameParams frame;
+    shared::FilmPixel film;
+    shared::RenderPush push;
+    shared::RayData ray;
+    shared::HitData hit;
+    shared::RaysPush raysPush;
+    shared::TraceTriangle traceTriangle;
+    shared::TraceInstance traceInstance;
+    std::array<shared::InstanceData, 2> instances{};  ///< the second is read, lest a stride of 0 go unseen
+    shared::TriangleData triangle;
+    shared::VertexData vertex;
+    std::array<shared::MaterialData, 2> materials{};
+    shared::TextureData texture;
+    shared::EmissiveData emissive;
+    shared::PunctualData punctual;
+};
+
+void numberFrame(Numbering& n, shared::FrameParams& f) {
+    n.assign(f.cameraPosition, f.pixelSpread, f.cameraRight, f.width, f.cameraUp, f.height, f.cameraForward, f.seed);
+    n.assign(f.tilesPerRow, f.maxDepth, f.rouletteDepth, f.traceInstanceCount, f.emissiveCount, f.punctualCount);
+    n.assign(f.environmentWidth, f.environmentHeight, f.shareEmissive, f.sharePunctual, f.shareEnvironment);
+    n.assign(f.emissiveTotal, f.environmentConstant, f.sceneDiagonal, f.gridOrigin, f.root, f.gridStep, f.hasUpperTree);
+}
+
+void numberBuffers(Numbering& n, Structs& s) {
+    n.assign(s.film.sumHi, s.film.count, s.film.sumLo, s.film.nonFinite, s.film.squareHi, s.film.rays);
+    n.assign(s.film.squareLo, s.film.padding);
+    n.assign(s.push.firstTile, s.push.firstRow, s.push.firstSample, s.push.sampleCount);
+    n.assign(s.ray.origin, s.ray.tMin, s.ray.direction, s.ray.tMax);
+    n.assign(s.hit.t, s.hit.u, s.hit.v, s.hit.instance, s.hit.primitive, s.hit.padding0, s.hit.padding1,
+             s.hit.padding2);
+    n.assign(s.raysPush.count, s.raysPush.anyHit);
+}
+
+void numberTraversal(Numbering& n, shared::TraceTriangle& t, shared::TraceInstance& i) {
+    n.assign(t.p0, t.instance, t.p1, t.primitive, t.p2, t.alphaTested);
+    n.assign(i.worldToObject0, i.worldToObject1, i.worldToObject2, i.gridOrigin, i.root, i.gridStep, i.instance);
+    n.assign(i.firstTriangle, i.triangleCount, i.padding0, i.padding1);
+}
+
+void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData& t, shared::VertexData& v) {
+    n.assign(i.objectToWorld0, i.objectToWorld1, i.objectToWorld2, i.firstTriangle, i.material, i.flags, i.padding);
+    n.assign(t.v0, t.v1, t.v2, t.padding);
+    n.assign(v.position, v.normal, v.u, v.v, v.tangent, v.padding);
+}
+
+void numberMaterials(Numbering& n, shared::MaterialData& m, shared::TextureData& t) {
+    n.assign(m.baseColor, m.alpha, m.emission, m.alphaCutoff, m.metallic, m.roughness, m.transmission, m.ior);
+    n.assign(m.specular, m.normalScale, m.emissionWeight, m.flags, m.baseColorTexture, m.metallicRoughnessTexture);
+    n.assign(m.normalTexture, m.emissionTexture);
+    n.assign(t.firstTexel, t.width, t.height, t.flags);
+}
+
+void numberLights(Numbering& n, shared::EmissiveData& e, shared::PunctualData& p) {
+    n.assign(e.p0, e.threshold, e.edge1, e.alias, e.edge2, e.material, e.instance, e.primitive, e.frontSign, e.padding);
+    n.assign(p.position, p.kind, p.direction, p.threshold, p.intensity, p.alias, p.probability, p.spotScale);
+    n.assign(p.spotOffset, p.padding);
+}
+
+std::vector<uint32_t> numberAll(Structs& s) {
+    Numbering numbering;
+    numberFrame(numbering, s.frame);
+    numberBuffers(numbering, s);
+    numberTraversal(numbering, s.traceTriangle, s.traceInstance);
+    numberGeometry(numbering, s.instances[1], s.triangle, s.vertex);
+    numberMaterials(numbering, s.materials[1], s.texture);
+    numberLights(numbering, s.emissive, s.punctual);
+    return numbering.bits();
+}
+
+/// The buffers of the kernel and their bindings, in the order of addition.
+class Inputs {
+public:
+    explicit Inputs(Device& device) : device_(device) {}
+
+    template <class T>
+    void buffer(uint32_t binding, const T& value, VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
+        const VkBufferUsageFlags usage = type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
+                                                                                   : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+        infos_.push_back({binding, type});
+        buffers_.push_back(makeDeviceBuffer(device_, "layout", std::as_bytes(std::span(&value, 1)),
+                                            usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
+    }
+    template <class T>
+    void texels(uint32_t binding, const T& values) {
+        texelBindings_.push_back(binding);
+        texelBuffers_.push_back(
+            makeTexelBuffer(device_, "layout", std::as_bytes(std::span(values)), VK_FORMAT_R32G32B32A32_UINT, 16));
+    }
+    KernelLayout bind(uint32_t pushBytes) const {
+        std::vector<BindingInfo> all = infos_;
+        for (const uint32_t binding : texelBindings_) all.push_back({binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
+        KernelLayout layout(device_, all, pushBytes);
+        for (size_t i = 0; i < infos_.size(); ++i)
+            bindBuffer(device_, layout, infos_[i], buffers_[i].get(), 0, buffers_[i].sizeBytes());
+        for (size_t i = 0; i < texelBindings_.size(); ++i)
+            bindTexelView(device_, layout, texelBindings_[i], texelBuffers_[i].view.get());
+        return layout;
+    }
+    const Buffer& last() const { return buffers_.back(); }
+
+private:
+    Device& device_;
+    std::vector<BindingInfo> infos_;
+    std::vector<Buffer> buffers_;
+    std::vector<uint32_t> texelBindings_;
+    std::vector<TexelBuffer> texelBuffers_;
+};
+
+using Layout = GpuTest;
+
+TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
+    Structs s{};
+    const std::vector<uint32_t> expected = numberAll(s);
+    std::array<uint32_t, 512> result{};
+    ASSERT_LT(expected.size(), result.size());
+    Inputs inputs(device_);
+    inputs.buffer(shared::kBindFrame, s.frame, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    inputs.buffer(shared::kBindFilm, s.film);
+    inputs.buffer(shared::kBindRays, s.ray);
+    inputs.buffer(shared::kBindHits, s.hit);
+    inputs.buffer(20, s.raysPush);
+    inputs.buffer(21, s.traceTriangle);
+    inputs.buffer(22, s.traceInstance);
+    inputs.buffer(23, s.triangle);
+    inputs.buffer(24, s.vertex);
+    inputs.buffer(25, s.texture);
+    inputs.buffer(26, s.emissive);
+    inputs.buffer(27, s.punctual);
+    inputs.buffer(28, result);
+    inputs.texels(shared::kBindInstances, s.instances);
+    inputs.texels(shared::kBindMaterials, s.materials);
+    const KernelLayout layout = inputs.bind(sizeof(shared::RenderPush));
+    const PipelineHandle pipeline =
+        makeComputePipeline(device_, layout, RAYLAB_BINARY_DIR "/tests/layout.comp.spv", {});
+    device_.run("layout", [&](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.pipelineLayout.get(), 0, 1,
+                                &layout.set, 0, nullptr);
+        vkCmdPushConstants(commands, layout.pipelineLayout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(s.push),
+                           &s.push);
+        vkCmdDispatch(commands, 1, 1, 1);
+    });
+    download(device_, inputs.last(), std::as_writable_bytes(std::span(result)));
+    for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(result[i], expected[i]) << "scalar " << i;
+    EXPECT_EQ(result[expected.size()], 0u) << "the kernel knows more fields";
+}
+
+}  // namespace
+}  // namespace raylab::support
