@@ -13,6 +13,7 @@ namespace {
 constexpr uint32_t kFirstTileCount = 2;
 constexpr uint32_t kGrowth = 2;
 constexpr uint32_t kMostSamplesAtOnce = 64;
+constexpr double kMemory = 0.8;
 
 constexpr BindingInfo kFilmBinding{shared::kBindFilm, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC};
 
@@ -90,7 +91,8 @@ bool Renderer::step() {
     const double seconds = dispatch(nextTile_, count, passFirst_, passSamples_);
     times_.render += watch.seconds();
     passSeconds_ += seconds;
-    secondsPerTileSample_ = seconds / (static_cast<double>(count) * passSamples_);
+    // Costly tiles are remembered for a while, lest cheap ones (sky) before them lead to a dispatch that is far too long.
+    secondsPerTileSample_ = std::max(seconds / (static_cast<double>(count) * passSamples_), kMemory * secondsPerTileSample_);
     lastTileCount_ = count;
     pixelSamples_ += uint64_t{count} * shared::kWorkgroupSize * passSamples_;
     nextTile_ += count;

@@ -4,7 +4,7 @@
 
 #include "trace/candidate.glsl"
 
-bool findHit(Ray ray, bool anyHit, Cursor after, out Candidate hit) {
+bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     for (uint i = 0u; i < frame.traceInstanceCount; ++i) {
@@ -18,12 +18,20 @@ bool findHit(Ray ray, bool anyHit, Cursor after, out Candidate hit) {
         vec3 origin = vec3(dot(row0, o), dot(row1, o), dot(row2, o));
         vec3 direction = vec3(dot(row0.xyz, ray.direction), dot(row1.xyz, ray.direction), dot(row2.xyz, ray.direction));
         ShearedRay sheared = shearRay(origin, direction);
-        for (uint slot = range.x; slot < range.x + range.y; ++slot) testTriangle(ray, sheared, slot, owner, after, hit);
+        for (uint slot = range.x; slot < range.x + range.y; ++slot) {
+            Candidate found = hit;
+            testTriangle(ray, sheared, slot, owner, found);
+            if (needs(kNeedAlpha) && found.untested) {
+                if (!acceptsUntested(found, ray.key)) continue;
+                found.untested = false;
+            }
+            hit = found;
+        }
         if (anyHit && hit.instance != kInheritInstance) return true;
     }
     return hit.instance != kInheritInstance;
 }
 
-#include "trace/refine.glsl"
+#include "trace/interface.glsl"
 
 #endif

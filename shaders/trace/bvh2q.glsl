@@ -65,7 +65,7 @@ LowerRay enterInstance(Ray ray, uint slot, out uint root) {
                     shearRay(origin, direction), b.w);
 }
 
-bool findHit(Ray ray, bool anyHit, Cursor after, out Candidate hit) {
+bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kEndOfWalk) return false;
@@ -104,7 +104,23 @@ bool findHit(Ray ray, bool anyHit, Cursor after, out Candidate hit) {
             continue;
         }
         uint last = first + ((node >> kLeafCountShift) & 15u);
-        for (uint slot = first; slot <= last; ++slot) testTriangle(ray, lower.sheared, slot, lower.instance, after, hit);
+        uint slot = first;
+        Candidate found = hit;
+        for (; slot <= last && !found.untested; ++slot) {
+            testTriangle(ray, lower.sheared, slot, lower.instance, found);
+            if (!found.untested) hit = found;
+        }
+        if (needs(kNeedAlpha)) {
+            // Alpha is tested once a step, for the first triangle that asks for it; the rest of the leaf is the next step.
+            if (found.untested && acceptsUntested(found, ray.key)) {
+                found.untested = false;
+                hit = found;
+            }
+            if (slot <= last && !(anyHit && hit.instance != kInheritInstance)) {
+                node = kLeafBit | ((last - slot) << kLeafCountShift) | slot;
+                continue;
+            }
+        }
         if (anyHit && hit.instance != kInheritInstance) return true;
         if (needs(kNeedInstancing)) upper = top <= floor;
         node = stack[top--];
@@ -112,6 +128,6 @@ bool findHit(Ray ray, bool anyHit, Cursor after, out Candidate hit) {
     return hit.instance != kInheritInstance;
 }
 
-#include "trace/refine.glsl"
+#include "trace/interface.glsl"
 
 #endif

@@ -1,4 +1,4 @@
-// A software traversal's closest candidate so far, and the test of one triangle of a leaf.
+// A software traversal's closest hit so far, and the test of one triangle.
 #ifndef RAYLAB_CANDIDATE_GLSL
 #define RAYLAB_CANDIDATE_GLSL
 
@@ -10,16 +10,8 @@ struct Candidate {
     vec2 barycentrics;
     uint instance;  // kInheritInstance: none yet
     uint primitive;
-    bool alphaTested;
+    bool untested;  // acceptsCandidate() has still to be asked
 };
-
-// The hit after which a search goes on: candidates at the ray's tMin count only where their ids follow.
-struct Cursor {
-    uint instance;
-    uint primitive;
-};
-
-const Cursor kFromStart = Cursor(0xffffffffu, 0xffffffffu);
 
 Candidate noCandidate(float tMax) { return Candidate(tMax, vec2(0.0), kInheritInstance, 0u, false); }
 
@@ -28,7 +20,7 @@ bool idsBefore(uint instanceA, uint primitiveA, uint instanceB, uint primitiveB)
 }
 
 // Ids order hits at equal distance, so that the answer does not depend on the tree.
-void testTriangle(Ray ray, ShearedRay sheared, uint slot, uint owner, Cursor after, inout Candidate hit) {
+void testTriangle(Ray ray, ShearedRay sheared, uint slot, uint owner, inout Candidate hit) {
     int at = int(slot * kWordsTraceTriangle);
     uvec4 p0 = texelFetch(traceTriangleWords, at);
     uvec4 p1 = texelFetch(traceTriangleWords, at + 1);
@@ -39,12 +31,15 @@ void testTriangle(Ray ray, ShearedRay sheared, uint slot, uint owner, Cursor aft
                                       uintBitsToFloat(p2.xyz), ray.tMin, hit.t, t, uv);
     uint instance = needs(kNeedInstancing) && owner != kInheritInstance ? owner : p0.w;
     accepted = accepted && (t < hit.t || idsBefore(instance, p1.w, hit.instance, hit.primitive));
-    accepted = accepted && (t > ray.tMin || idsBefore(after.instance, after.primitive, instance, p1.w));
     hit.t = accepted ? t : hit.t;
     hit.barycentrics = accepted ? uv : hit.barycentrics;
     hit.instance = accepted ? instance : hit.instance;
     hit.primitive = accepted ? p1.w : hit.primitive;
-    hit.alphaTested = accepted ? p2.w != 0u : hit.alphaTested;
+    if (needs(kNeedAlpha)) hit.untested = accepted && p2.w != 0u;
+}
+
+bool acceptsUntested(Candidate hit, uint key) {
+    return acceptsCandidate(hit.instance, hit.primitive, hit.barycentrics, key);
 }
 
 #endif

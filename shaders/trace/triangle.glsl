@@ -18,7 +18,7 @@ ShearedRay shearRay(vec3 origin, vec3 direction) {
     return ShearedRay(origin, vec3(d.xy, 1.0) / d.z, axis);
 }
 
-// t and the barycentric weights of p1 and p2; two-sided. Accepts tMin <= t <= tMax: the caller decides ties.
+// t and the barycentric weights of p1 and p2; two-sided. Accepts tMin < t <= tMax: the caller decides ties.
 bool intersectTriangle(ShearedRay ray, vec3 p0, vec3 p1, vec3 p2, float tMin, float tMax, out float t, out vec2 uv) {
     vec3 a = permute(p0 - ray.origin, ray.axis);
     vec3 b = permute(p1 - ray.origin, ray.axis);
@@ -40,7 +40,7 @@ bool intersectTriangle(ShearedRay ray, vec3 p0, vec3 p1, vec3 p2, float tMin, fl
     float inverse = 1.0 / det;
     t = (u * a.z + v * b.z + w * c.z) * ray.shear.z * inverse;
     uv = vec2(v, w) * inverse;
-    return inside && det != 0.0 && t >= tMin && t <= tMax;
+    return inside && det != 0.0 && t > tMin && t <= tMax;
 }
 
 #endif
