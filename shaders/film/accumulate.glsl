@@ -15,6 +15,16 @@ void addTwoFloat(inout vec3 hi, inout vec3 lo, vec3 value) {
     hi = high;
 }
 
+// value^2 - square, exactly: Dekker's product over Veltkamp's split in halves of 12 bits. fma() would do it in one step, but
+// Vulkan lets a driver round it twice, and lavapipe does.
+vec3 squareResidue(vec3 value, vec3 square) {
+    precise vec3 scaled = value * 4097.0;
+    precise vec3 high = scaled - (scaled - value);
+    precise vec3 low = value - high;
+    precise vec3 residue = ((high * high - square) + 2.0 * (high * low)) + low * low;
+    return residue;
+}
+
 void addSample(inout FilmPixel pixel, vec3 value) {
     if (any(isnan(value)) || any(isinf(value))) {
         pixel.nonFinite += 1u;
@@ -23,9 +33,8 @@ void addSample(inout FilmPixel pixel, vec3 value) {
     pixel.count += 1u;
     addTwoFloat(pixel.sumHi, pixel.sumLo, value);
     precise vec3 square = value * value;
-    precise vec3 residue = fma(value, value, -square);
     addTwoFloat(pixel.squareHi, pixel.squareLo, square);
-    addTwoFloat(pixel.squareHi, pixel.squareLo, residue);
+    addTwoFloat(pixel.squareHi, pixel.squareLo, squareResidue(value, square));
 }
 
 #endif
