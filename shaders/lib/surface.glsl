@@ -83,6 +83,14 @@ vec3 visibleNormal(vec3 n, vec3 wo) {
     return below > 1e-3 ? n : normalize(n + (1e-3 - below) * wo);
 }
 
+// Bends a metal's shading normal until the mirror direction clears the surface: a metal that reflects into itself is black
+// (Keller et al., "The Iray Light Transport Simulation and Rendering System", 2017).
+vec3 reflectingNormal(vec3 n, vec3 geometric, vec3 wo) {
+    vec3 mirrored = 2.0 * dot(wo, n) * n - wo;
+    float height = dot(mirrored, geometric);
+    return height >= 1e-2 ? n : normalize(wo + normalize(mirrored + (1e-2 - height) * geometric));
+}
+
 vec3 shadingNormal(InstanceData data, MaterialData material, uvec4 i, vec2 bary, uint n0, uint n1, uint n2, vec2 uv,
                    float lod, float u, vec3 geometric) {
     vec3 n = geometric;
@@ -163,6 +171,7 @@ Surface surfaceAt(Hit hit, vec3 wo, RayCone cone, float u) {
         if (material.emissionTexture != kNoTextureIndex)
             s.emission *= fetchMaterialTexture(material.emissionTexture, s.uv, 0.0, 0.0).rgb;
     }
+    if (needs(kNeedSpecular) && s.metallic > 0.5) s.normal = reflectingNormal(s.normal, s.geometricNormal, wo);
     bool emits = s.frontFace || (material.flags & kMaterialDoubleSided) != 0u;
     s.emission = emits ? s.emission : vec3(0.0);
     s.emissionWeight = material.emissionWeight;

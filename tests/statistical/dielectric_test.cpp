@@ -44,7 +44,7 @@ Scene blackenedGlass() {
     return scene;
 }
 
-/// A8: the Fresnel equations at n = 1.5, published values.
+/// A8: the Fresnel equations at n = 1.5, published values; normal incidence is in the slab's.
 TEST_F(Dielectric, FresnelReflectanceAtOneFace) {
     const std::pair<double, double> published[] = {
         {0.0, 0.04}, {45.0, 0.050240}, {60.0, 0.089187}, {75.0, 0.253061}, {85.0, 0.6128}};

@@ -1,7 +1,6 @@
-#include <cmath>
-
 #include "engine/measure/image_error.h"
 #include "engine/scene/import.h"
+#include "tests/support/estimate.h"
 #include "tests/support/gpu_test.h"
 
 namespace raylab::support {
@@ -26,11 +25,7 @@ Bitmap varianceOfMean(const FilmImage& film) {
 /// With one seed the two follow the same paths: pixels that differ show differing hits.
 TEST_F(Tracers, SoftwareEqualsBruteForceWithTheSameSeed) {
     const FilmImage software = renderCornell(device_, "software", 1), brute = renderCornell(device_, "brute", 1);
-    size_t different = 0;
-    for (size_t i = 0; i < software.mean.pixels.size(); ++i)
-        if (std::abs(software.mean.pixels[i] - brute.mean.pixels[i]) > 1e-5f * std::abs(brute.mean.pixels[i]))
-            ++different;
-    EXPECT_LE(different, software.mean.pixels.size() / 1000);
+    EXPECT_LE(countDifferent(software.mean, brute.mean, 1e-5f), software.mean.pixels.size() / 1000);
     EXPECT_EQ(software.rays, brute.rays);
 }
 

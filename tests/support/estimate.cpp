@@ -58,4 +58,12 @@ void expectEveryPixel(const FilmImage& film, double exact, double relativeTolera
     expectEveryPixel(film, glm::dvec3(exact), relativeTolerance, what);
 }
 
+size_t countDifferent(const Bitmap& a, const Bitmap& b, float relativeTolerance) {
+    EXPECT_EQ(a.pixels.size(), b.pixels.size());
+    size_t different = 0;
+    for (size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
+        if (!(std::abs(a.pixels[i] - b.pixels[i]) <= relativeTolerance * std::abs(b.pixels[i]))) ++different;
+    return different;
+}
+
 }  // namespace raylab::support

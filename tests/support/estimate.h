@@ -27,4 +27,7 @@ void expectExact(const FilmImage& film, double exact, const std::string& what = 
 void expectEveryPixel(const FilmImage& film, glm::dvec3 exact, double relativeTolerance, const std::string& what = "");
 void expectEveryPixel(const FilmImage& film, double exact, double relativeTolerance, const std::string& what = "");
 
+/// Values of `a` that are further from those of `b` than a share of them, or not numbers.
+size_t countDifferent(const Bitmap& a, const Bitmap& b, float relativeTolerance);
+
 }  // namespace raylab::support

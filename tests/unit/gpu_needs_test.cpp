@@ -1,7 +1,7 @@
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/scene/needs.h"
+#include "tests/support/estimate.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/scene_build.h"
 
@@ -58,19 +58,11 @@ TEST_F(Needs, SpecialisedKernelRendersWhatTheFullOneDoes) {
     const FilmImage lean = renderFilm(device_, scene, settings);
     settings.needs = "full";
     const FilmImage full = renderFilm(device_, scene, settings);
-    size_t different = 0;
-    for (size_t i = 0; i < lean.mean.pixels.size(); ++i)
-        if (!(std::abs(lean.mean.pixels[i] - full.mean.pixels[i]) <= 1e-4f * std::abs(full.mean.pixels[i])))
-            ++different;
-    EXPECT_LE(different, lean.mean.pixels.size() / 100);
+    EXPECT_LE(countDifferent(lean.mean, full.mean, 1e-4f), lean.mean.pixels.size() / 100);
     EXPECT_EQ(lean.nonFinitePixels + full.nonFinitePixels, 0u);
     settings.tracer = "brute";
     const FilmImage brute = renderFilm(device_, scene, settings);
-    size_t differentHits = 0;
-    for (size_t i = 0; i < full.mean.pixels.size(); ++i)
-        if (!(std::abs(full.mean.pixels[i] - brute.mean.pixels[i]) <= 1e-5f * std::abs(full.mean.pixels[i])))
-            ++differentHits;
-    EXPECT_LE(differentHits, full.mean.pixels.size() / 1000);
+    EXPECT_LE(countDifferent(brute.mean, full.mean, 1e-5f), full.mean.pixels.size() / 1000);
 }
 
 /// A scene that needs less and less: the merged tree and flat Lambertian surfaces alone.
@@ -85,11 +77,7 @@ TEST_F(Needs, LeanestKernelRendersWhatTheFullOneDoes) {
     const FilmImage lean = renderFilm(device_, scene, settings);
     settings.needs = "full";
     const FilmImage full = renderFilm(device_, scene, settings);
-    size_t different = 0;
-    for (size_t i = 0; i < lean.mean.pixels.size(); ++i)
-        if (!(std::abs(lean.mean.pixels[i] - full.mean.pixels[i]) <= 1e-4f * std::abs(full.mean.pixels[i])))
-            ++different;
-    EXPECT_LE(different, lean.mean.pixels.size() / 100);
+    EXPECT_LE(countDifferent(lean.mean, full.mean, 1e-4f), lean.mean.pixels.size() / 100);
 }
 
 }  // namespace

@@ -71,51 +71,58 @@ bool isDecidable(const OracleHit& hit, double margin) {
     return hit.margin >= margin && !(hit.hit() && hit.tNext < hit.t * 1.0001);
 }
 
-/// 1e-4 of the distance, and the rounding of coordinates as large as the scene's: 8 units in the last place.
+/// 1e-4 of the distance, and 8 units in the last place of coordinates as large as the scene's.
 double distanceTolerance(const OracleHit& hit, const shared::RayData& ray, double largestCoordinate) {
     return 1e-4 * hit.t + 8.0 * 0x1p-24 * largestCoordinate / static_cast<double>(glm::length(ray.direction));
 }
 
-double largestCoordinate(const Scene& scene) {
+double largestCoordinateOf(const Scene& scene) {
     const Bounds bounds = sceneBounds(scene);
     const glm::vec3 largest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
     return static_cast<double>(std::max({largest.x, largest.y, largest.z}));
 }
 
-/// Closest hits, and shadow rays that end just before and just behind them.
+struct Answers {
+    std::vector<shared::HitData> closest, occluded;
+    std::vector<shared::HitData> occludedBefore, occludedBehind;  ///< of rays that end just before and behind the hit
+};
+
+Answers askDevice(RayCaster& caster, const std::vector<shared::RayData>& rays, const std::vector<OracleHit>& expected,
+                  double largestCoordinate) {
+    std::vector<shared::RayData> before = rays, behind = rays;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        if (!expected[i].hit()) continue;
+        const double margin = 4.0 * distanceTolerance(expected[i], rays[i], largestCoordinate);
+        before[i].tMax = static_cast<float>(expected[i].t - margin);
+        behind[i].tMax = static_cast<float>(expected[i].t + margin);
+    }
+    return {caster.closest(rays), caster.occluded(rays), caster.occluded(before), caster.occluded(behind)};
+}
+
 Agreement compareWithOracle(Device& device, const Scene& scene, const std::vector<shared::RayData>& rays, double margin,
                             const std::string& tracer = "software") {
     RenderSettings settings;
     settings.tracer = tracer;
     RayCaster caster(device, scene, settings);
     const Flattened flat = flatten(scene);
+    const double largest = largestCoordinateOf(scene);
     const std::vector<OracleHit> expected = oracleHits(flat, rays);
-    const std::vector<shared::HitData> hits = caster.closest(rays);
-    const std::vector<shared::HitData> anyHits = caster.occluded(rays);
-    std::vector<shared::RayData> before = rays, behind = rays;
-    for (size_t i = 0; i < rays.size(); ++i)
-        if (expected[i].hit()) {
-            before[i].tMax = static_cast<float>(expected[i].t * 0.9995);
-            behind[i].tMax = static_cast<float>(expected[i].t * 1.0005);
-        }
-    const std::vector<shared::HitData> shadowBefore = caster.occluded(before), shadowBehind = caster.occluded(behind);
-    const double largest = largestCoordinate(scene);
+    const Answers answers = askDevice(caster, rays, expected, largest);
     Agreement a;
     for (size_t i = 0; i < rays.size(); ++i) {
         const OracleHit& oracle = expected[i];
         if (!isDecidable(oracle, margin)) continue;
         ++a.decidable;
         a.hits += oracle.hit() ? 1u : 0u;
-        const bool hit = hits[i].t >= 0.0f;
-        const bool sameId =
-            !oracle.hit() || (hit && flat.ids[oracle.primitive] == glm::uvec2(hits[i].instance, hits[i].primitive));
-        a.wrongHits += hit != oracle.hit() || !sameId ? 1u : 0u;
-        if (hit && oracle.hit() &&
-            std::abs(static_cast<double>(hits[i].t) - oracle.t) > distanceTolerance(oracle, rays[i], largest))
-            ++a.wrongDistances;
-        a.wrongShadows += (anyHits[i].t >= 0.0f) != oracle.hit() ? 1u : 0u;
-        a.wrongShadows += oracle.hit() && shadowBefore[i].t >= 0.0f ? 1u : 0u;
-        a.wrongShadows += oracle.hit() && shadowBehind[i].t < 0.0f ? 1u : 0u;
+        const shared::HitData& got = answers.closest[i];
+        const bool same = (got.t >= 0.0f) == oracle.hit() &&
+                          (!oracle.hit() || flat.ids[oracle.primitive] == glm::uvec2(got.instance, got.primitive));
+        const double error = std::abs(static_cast<double>(got.t) - oracle.t);
+        a.wrongHits += same ? 0u : 1u;
+        a.wrongDistances += same && oracle.hit() && error > distanceTolerance(oracle, rays[i], largest) ? 1u : 0u;
+        a.wrongShadows += (answers.occluded[i].t >= 0.0f) != oracle.hit() ? 1u : 0u;
+        a.wrongShadows += oracle.hit() && answers.occludedBefore[i].t >= 0.0f ? 1u : 0u;
+        a.wrongShadows += oracle.hit() && answers.occludedBehind[i].t < 0.0f ? 1u : 0u;
     }
     return a;
 }
