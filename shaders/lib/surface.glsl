@@ -169,7 +169,7 @@ Surface surfaceAt(Hit hit, vec3 wo, RayCone cone, float u) {
             s.metallic *= mr.b;
         }
         if (material.emissionTexture != kNoTextureIndex)
-            s.emission *= fetchMaterialTexture(material.emissionTexture, s.uv, 0.0, 0.0).rgb;
+            s.emission *= sampleTextureSharp(material.emissionTexture, s.uv).rgb;
     }
     if (needs(kNeedSpecular) && s.metallic > 0.5) s.normal = reflectingNormal(s.normal, s.geometricNormal, wo);
     bool emits = s.frontFace || (material.flags & kMaterialDoubleSided) != 0u;

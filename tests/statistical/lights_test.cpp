@@ -122,6 +122,52 @@ TEST_F(Lights, SquareLight) {
     expectExact(viewPoint(device_, scene, glm::vec3(0.0f), 1024), kRadiancePerIrradiance * 0.752275 * 3.0);
 }
 
+/// Mirrored, a floor becomes a ceiling, and its front goes along (glTF 2.0, section 3.7.4).
+TEST_F(Lights, MirroredLampKeepsItsFront) {
+    Scene scene = planeScene();
+    glm::mat4 upsideDown(1.0f);
+    upsideDown[1][1] = -1.0f;
+    addMesh(scene, floorQuad(addMaterial(scene, lamp(3.0f)), 0.5f, -1.0f), upsideDown);
+    expectExact(viewPoint(device_, scene, glm::vec3(0.0f), 1024), kRadiancePerIrradiance * 0.752275 * 3.0);
+}
+
+/// Emits where the texture is white: u below 1/2. Filtering mixes the two in one texel of 64.
+Scene halfLampScene() {
+    Scene scene = planeScene();
+    Texture half;
+    half.width = half.height = 64;
+    half.wrapU = half.wrapV = Wrap::clamp;
+    for (uint32_t i = 0; i < 64 * 64; ++i) half.texels.push_back(i % 64 < 32 ? 0xffffffffu : 0xff000000u);
+    scene.textures = {half};
+    Material material = lamp(3.0f);
+    material.emissionTexture = 0;
+    addMesh(scene, ceilingQuad(addMaterial(scene, material), 0.5f, 1.0f));
+    return scene;
+}
+
+/// Form factor of a differential surface to a rectangle that faces it at distance 1, a and b its sides, one corner
+/// above the point (Siegel, Howell, "Thermal Radiation Heat Transfer", configuration 4).
+double cornerFactor(double a, double b) {
+    const double p = std::sqrt(1.0 + a * a), q = std::sqrt(1.0 + b * b);
+    return (a / p * std::atan(b / p) + b / q * std::atan(a / q)) / (2.0 * kPi);
+}
+
+/// Below the middle of the white half.
+TEST_F(Lights, TexturedLampLightsByItsTexture) {
+    EXPECT_NEAR(4.0 * cornerFactor(0.5, 0.5), 0.239456, 1e-6) << "A5";
+    expectExact(viewPoint(device_, halfLampScene(), {-0.25f, 0.0f, 0.0f}, 4096),
+                kRadiancePerIrradiance * kPi * 3.0 * 4.0 * cornerFactor(0.25, 0.5));
+}
+
+TEST_F(Lights, TexturedLampLooksLikeItsTexture) {
+    Scene scene = halfLampScene();
+    for (const float x : {-0.25f, 0.25f}) {
+        lookAtPoint(scene, {x, 0.5f, 0.0f}, {x, 1.0f, 0.0f});
+        expectEveryPixel(renderFilm(device_, scene, smallImage(8, 4, 0)), x < 0.0f ? 3.0 : 0.0, 1e-5,
+                         "x " + std::to_string(x));
+    }
+}
+
 /// A6: the image is exactly the receiving unit square, seen from a point half a unit above it; its mean is the form
 /// factor of the two squares.
 TEST_F(Lights, UnitSquaresHaveTheirFormFactors) {
