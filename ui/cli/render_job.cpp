@@ -59,7 +59,8 @@ std::string renderLoop(Renderer& renderer, const RenderSettings& settings, bool 
     const Stopwatch watch;
     while (renderer.step()) {
         const double error = noise.update(renderer, watch);
-        progress.show(renderer.fractionDone(), renderer.completeSamples(), error);
+        const double ofTime = settings.timeLimit > 0.0 ? std::min(watch.seconds() / settings.timeLimit, 1.0) : 0.0;
+        progress.show(std::max(renderer.fractionDone(), ofTime), renderer.completeSamples(), error);
         if (interrupted != 0) return "interrupt";
         const bool everyPixelHasOne = renderer.completeSamples() > 0;
         if (settings.timeLimit > 0.0 && watch.seconds() >= settings.timeLimit && everyPixelHasOne) return "time-limit";
