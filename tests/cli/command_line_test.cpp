@@ -188,7 +188,8 @@ TEST_F(CommandLine, SameSeedSameBits) {
 
 TEST_F(CommandLine, InterruptWritesWhatIsThere) {
     const pid_t child = start({"render", "cornell", "-o", "a.png", "--spp", "4000000000", "--width", "64", "--height", "64"});
-    std::this_thread::sleep_for(std::chrono::seconds(4));
+    for (int tries = 0; tries < 600 && textOf(folder_ / "stderr").find("samples") == std::string::npos; ++tries)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ::kill(child, SIGINT);
     const auto sent = std::chrono::steady_clock::now();
     const Outcome outcome = finish(child);
