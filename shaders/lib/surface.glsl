@@ -30,7 +30,6 @@ struct Surface {
     bool thin;
     vec3 emission;  // towards wo
     float emissionWeight;
-    uint material;
 };
 
 const float kMachineEpsilon = 5.9604644775390625e-8;
@@ -180,7 +179,6 @@ Surface surfaceAt(Hit hit, vec3 wo, RayCone cone, float u) {
     s.ior = material.ior;
     s.specular = material.specular;
     s.thin = (material.flags & kMaterialThin) != 0u;
-    s.material = data.material;
     return s;
 }
 
