@@ -1,51 +1,31 @@
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 #include <span>
 
-#include "engine/accel/bvh.h"
-#include "engine/accel/float4.h"
+#include "engine/accel/build_range.h"
 
 namespace raylab {
 
-/// A primitive as the builder moves it around: 32 bytes, its id in the bits of the free lane.
-struct PrimitiveRef {
-    Float4 lo;  ///< lane 3: the id
-    Float4 hi;
-
-    PrimitiveRef() = default;
-    /// Adding zero turns -0 into +0: the minimum of the two depends on the order of the operands.
-    PrimitiveRef(const Aabb& box, uint32_t id) : lo(toFloat4(box.lo + 0.0f)), hi(toFloat4(box.hi + 0.0f)) {
-        lo[3] = std::bit_cast<float>(id);
-    }
-    uint32_t id() const { return std::bit_cast<uint32_t>(static_cast<float>(lo[3])); }
-    /// Twice the centroid, lane 3 zero: a factor of two changes no decision and saves a multiplication.
-    Float4 centroid2() const {
-        const Int4 xyz = {-1, -1, -1, 0};
-        return reinterpret_cast<Float4>(reinterpret_cast<Int4>(lo + hi) & xyz);
-    }
-    float centroid2(int axis) const { return lo[axis] + hi[axis]; }
-};
-
-/// Which bin a centroid falls into, on the three axes at once. An axis without extent has scale 0: all in bin 0.
+/// Which of the equal bins between the planes of a box a point falls into, on the three axes at once: twice a centroid,
+/// in a box of twice the centroids, or any other. An axis without extent has scale 0: all in bin 0.
 struct BinMapping {
     Float4 base;
     Float4 scale;
 
-    BinMapping(const Box4& centroids2, int bins) : base(centroids2.lo), scale(splat(0.0f)) {
-        // Below `bins` by more than the rounding of (c - base) * scale, so that the last centroid stays in the last
-        // bin.
+    BinMapping(const Box4& box, int bins) : base(box.lo), scale(splat(0.0f)) {
+        // Below `bins` by more than the rounding of (p - base) * scale, so that the last point stays in the last bin.
         const float reach = static_cast<float>(bins) * 0.99999f;
         for (int axis = 0; axis < 3; ++axis) {
-            const float axisScale = reach / (centroids2.hi[axis] - centroids2.lo[axis]);
+            const float axisScale = reach / (box.hi[axis] - box.lo[axis]);
             if (std::isfinite(axisScale)) scale[axis] = axisScale;
         }
     }
-    Int4 binsOf(const PrimitiveRef& ref) const { return truncate((ref.centroid2() - base) * scale); }
+    Int4 binsOf(Float4 point) const { return truncate((point - base) * scale); }
+    Int4 binsOf(const PrimitiveRef& ref) const { return binsOf(ref.centroid2()); }
     int operator()(const PrimitiveRef& ref, int axis) const {
         return static_cast<int>((ref.centroid2(axis) - base[axis]) * scale[axis]);
     }
@@ -105,12 +85,21 @@ struct Bins {
         lo[bin][axis] = box.lo;
         hi[bin][axis] = box.hi;
     }
-    void add(int bin, int axis, const Box4& box, int32_t count) {
+    void grow(int bin, int axis, const Box4& box) {
         lo[bin][axis] = minimum(box.lo, lo[bin][axis]);
         hi[bin][axis] = maximum(box.hi, hi[bin][axis]);
+    }
+    void add(int bin, int axis, const Box4& box, int32_t count) {
+        grow(bin, axis, box);
         counts[bin][axis] += count;
     }
     Box4 box(int bin, int axis) const { return {lo[bin][axis], hi[bin][axis]}; }
+    /// The union of the boxes of the bins from `begin` to `end` of an axis.
+    Box4 box(int begin, int end, int axis) const {
+        Box4 all;
+        for (int i = begin; i < end; ++i) all.grow(box(i, axis));
+        return all;
+    }
     void add(const Bins& other) {
         for (int i = 0; i < size; ++i)
             for (int axis = 0; axis < 3; ++axis) add(i, axis, other.box(i, axis), other.counts[i][axis]);
@@ -129,14 +118,15 @@ inline Float4 halfAreas(const Box4 (&boxes)[3]) {
 }
 
 /// The cheapest of the planes between bins: a sweep from the right, then one from the left (Wald 2007, section 3.3).
-/// The cost of a plane with an empty side is infinity * 0 = NaN, which loses every comparison.
-inline BinnedSplit cheapestSplit(const Bins& bins) {
+/// The cost of a plane with an empty side is infinity * 0 = NaN, which loses every comparison. `rightCounts` are what
+/// counts to the right of a plane, where that is not what `bins` holds.
+inline BinnedSplit cheapestSplit(const Bins& bins, const Int4* rightCounts) {
     Float4 rightCosts[kMaxBvhBins];
     Box4 boxes[3];
     Float4 count = splat(0.0f);
     for (int i = bins.size - 1; i > 0; --i) {
         for (int axis = 0; axis < 3; ++axis) boxes[axis].grow(bins.box(i, axis));
-        count += toFloats(bins.counts[i]);
+        count += toFloats(rightCounts[i]);
         rightCosts[i] = halfAreas(boxes) * count;
     }
     boxes[0] = boxes[1] = boxes[2] = Box4();
@@ -155,6 +145,40 @@ inline BinnedSplit cheapestSplit(const Bins& bins) {
     for (int axis = 0; axis < 3; ++axis)
         if (bestCosts[axis] < best.cost) best = {bestCosts[axis], axis, bestBins[axis]};
     return best;
+}
+inline BinnedSplit cheapestSplit(const Bins& bins) { return cheapestSplit(bins, bins.counts); }
+
+inline void addToBins(std::span<const PrimitiveRef> refs, const BinMapping& mapping, Bins& bins) {
+    for (const PrimitiveRef& ref : refs) {
+        const Int4 bin = mapping.binsOf(ref);
+        for (int axis = 0; axis < 3; ++axis) bins.add(bin[axis], axis, ref.box(), 1);
+    }
+}
+
+/// For parallelSum().
+struct BinsOfRefs {
+    std::span<const PrimitiveRef> refs;
+    BinMapping mapping;
+    Bins bins;
+
+    void add(size_t begin, size_t end) { addToBins(refs.subspan(begin, end - begin), mapping, bins); }
+    void add(const BinsOfRefs& other) { bins.add(other.bins); }
+};
+
+/// use(bins, binOf) with the bins of the centroids, as many as primitives in nodes of up to kExactSweep of them;
+/// binOf(ref, axis) is a primitive's.
+template <class Use>
+auto useBins(std::span<const PrimitiveRef> refs, const Box4& centroids2, int count, const Use& use) {
+    if (refs.size() <= kExactSweep) {
+        const Ranks ranks(refs);
+        return use(Bins(ranks), ranks);
+    }
+    const BinMapping mapping(centroids2, count);
+    if (refs.size() > kParallelPass)
+        return use(parallelSum(refs.size(), BinsOfRefs{refs, mapping, Bins(count)}).bins, mapping);
+    Bins bins(count);
+    addToBins(refs, mapping, bins);
+    return use(bins, mapping);
 }
 
 }  // namespace raylab

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "engine/accel/build_input.h"
 #include "engine/accel/bvh.h"
 
 namespace raylab {
@@ -11,7 +12,7 @@ namespace raylab {
 /// threads. Never deeper than config.maxDepth: where the levels left would not suffice after the SAH split, and where
 /// no plane separates the centroids, a node is split at the median centroid, equal centroids by id. Primitives whose
 /// box is not usable() are left out and counted. Throws Error for a config out of its ranges, or one whose maxDepth and
-/// maxLeafSize cannot hold the primitives.
-Bvh buildBinned(std::span<const Aabb> bounds, const BvhConfig& config = {});
+/// maxLeafSize cannot hold the primitives; Cancelled.
+Bvh buildBinned(std::span<const Aabb> bounds, const BvhConfig& config = {}, const BuildControl& control = {});
 
 }  // namespace raylab

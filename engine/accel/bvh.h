@@ -24,25 +24,38 @@ struct BvhNode {
 /// then everything below the right one (so children come after their parents). No primitives: no nodes.
 struct Bvh {
     std::vector<BvhNode> nodes;
-    std::vector<uint32_t> order;  ///< primitive ids in leaf order: each usable primitive exactly once
-    uint32_t depth = 0;           ///< edges between the root and the deepest leaf
-    size_t skipped = 0;           ///< primitives with an empty, non-finite or oversized box: not in `order`
+    /// Primitive ids in leaf order. Each usable primitive is there once; only the builder `spatial` lists some again,
+    /// in other leaves, with a part of the primitive in the box of each: order.size() less the usable ones are
+    /// duplicates.
+    std::vector<uint32_t> order;
+    uint32_t depth = 0;  ///< edges between the root and the deepest leaf
+    size_t skipped = 0;  ///< primitives with an empty, non-finite or oversized box: not in `order`
 };
 
 /// Limits that the layouts and the traversal kernels rely on.
 constexpr int kMaxLeafSize = 16;  ///< a child reference has four bits for count - 1
 constexpr int kMaxBvhDepth = 62;  ///< a traversal stack of 64 never overflows
 constexpr int kMaxBvhBins = 32;
+constexpr float kMaxSpatialBudget = 4.0f;
+constexpr int kMaxSearchRadius = 64;
 constexpr size_t kMaxBvhPrimitives = size_t{1} << 27;  ///< a child reference has 27 bits for the first one
 
 struct BvhConfig {
-    /// Candidate planes + 1 an axis, 2 .. kMaxBvhBins. On the dragon 8 bins give SAH 49.9, 16 give 49.1, 32 give 48.8;
-    /// on two threads 32 take about a tenth longer than 16, and 8 no less.
-    int bins = 16;
+    /// Candidate planes + 1 an axis, 2 .. kMaxBvhBins. SAH on Sponza and on the dragon: 77.7 and 49.1 with 16 bins, 75.7 and
+    /// 48.8 with 32, at no difference in time that two threads show; Embree's medium build has 75.4 and 49.1.
+    int bins = 32;
     int maxLeafSize = 4;            ///< primitives in a leaf at most, 1 .. kMaxLeafSize; SAH often stops earlier
     float traversalCost = 1.0f;     ///< of one inner node, in any unit
     float intersectionCost = 1.0f;  ///< of one primitive, in the same unit
     int maxDepth = 40;              ///< edges from the root to the deepest leaf, 1 .. kMaxBvhDepth
+    /// Of `spatial`: duplicate references at most, as a part of the triangles, 0 .. kMaxSpatialBudget.
+    float spatialBudget = 0.25f;
+    /// Of `spatial`: planes through triangles are tried where the boxes of the best division of whole ones overlap by
+    /// more than this part of the root's area (Stich et al. 2009, section 4.3: alpha).
+    float spatialOverlap = 1e-5f;
+    /// Of `linear`: how far along the curve a cluster looks for its nearest neighbour, 1 .. kMaxSearchRadius. On the
+    /// dragon 4 give SAH 51.5 and 16 give 51.4; the build with 16 takes a quarter longer.
+    int searchRadius = 4;
 };
 
 }  // namespace raylab

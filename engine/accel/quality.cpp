@@ -10,6 +10,14 @@ double halfArea(const Aabb& box) {
     return e.x * (e.y + e.z) + e.y * e.z;
 }
 
+/// Of the intersection; 0 where the boxes are apart or meet in a face only.
+double sharedHalfArea(const Aabb& a, const Aabb& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if ((a.hi[axis] == b.lo[axis]) != (b.hi[axis] == a.lo[axis])) return 0.0;
+    const Aabb shared{glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
+    return shared.empty() ? 0.0 : halfArea(shared);
+}
+
 void countAt(std::vector<uint32_t>& histogram, size_t index) {
     if (histogram.size() <= index) histogram.resize(index + 1, 0);
     ++histogram[index];
@@ -33,18 +41,25 @@ BvhQuality measureQuality(const Bvh& bvh, const BvhConfig& config) {
     if (bvh.nodes.empty()) return quality;
     const std::vector<uint8_t> depths = depthsOf(bvh);
     double cost = 0.0;
+    double innerArea = 0.0;
+    double sharedArea = 0.0;
     for (size_t i = 0; i < bvh.nodes.size(); ++i) {
         const BvhNode& node = bvh.nodes[i];
         const double nodeCost = node.isLeaf() ? static_cast<double>(config.intersectionCost) * node.count
                                               : static_cast<double>(config.traversalCost);
         cost += nodeCost * halfArea(node.bounds);
-        if (!node.isLeaf()) continue;
+        if (!node.isLeaf()) {
+            innerArea += halfArea(node.bounds);
+            sharedArea += sharedHalfArea(bvh.nodes[node.left].bounds, bvh.nodes[node.left + 1].bounds);
+            continue;
+        }
         ++quality.leaves;
         countAt(quality.leafSizeHistogram, node.count);
         countAt(quality.depthHistogram, depths[i]);
     }
     const double rootArea = halfArea(bvh.nodes[0].bounds);
     quality.sah = rootArea > 0.0 ? cost / rootArea : 0.0;
+    quality.siblingOverlap = innerArea > 0.0 ? sharedArea / innerArea : 0.0;
     quality.depth = *std::max_element(depths.begin(), depths.end());
     quality.meanLeafSize = static_cast<double>(bvh.order.size()) / static_cast<double>(quality.leaves);
     return quality;

@@ -16,6 +16,11 @@ struct BvhQuality {
     /// the areas of inner nodes times traversalCost and of leaves times count times intersectionCost, over the root's
     /// area. 0 for an empty tree and for a root without area.
     double sah = 0.0;
+    /// How much the boxes of siblings overlap: the areas of the intersections of the two boxes below each inner node,
+    /// over the areas of the inner nodes. That is the part of a node's area, on average over the inner nodes weighted
+    /// by area, in which both children are hit. Boxes that meet in a face only do not overlap. 0 without inner nodes of
+    /// any area.
+    double siblingOverlap = 0.0;
     double epo = std::numeric_limits<double>::quiet_NaN();  ///< see measureEpo(); NaN: not measured
     int depth = 0;                                          ///< edges between the root and the deepest leaf
     size_t nodes = 0;                                       ///< leaves included
@@ -30,7 +35,8 @@ BvhQuality measureQuality(const Bvh& bvh, const BvhConfig& config = {});
 
 /// End-point overlap (Aila, Karras and Laine, "On Quality Metrics of Bounding Volume Hierarchies", HPG 2013, equation
 /// 2): the cost of the nodes that a point on the surface lies in although they do not hold that surface, on average
-/// over the surface. Exact: each triangle is clipped, in double precision, against the nodes that it reaches into.
+/// over the surface. A node holds a triangle that is listed anywhere below it, and a triangle listed more than once is
+/// one surface. Exact: each triangle is clipped, in double precision, against the nodes that it reaches into.
 /// Takes seconds for a million triangles, on all threads; the result does not depend on their number. 0 for an empty
 /// tree. `positions` and `triangles` are what the tree was built over.
 double measureEpo(const Bvh& bvh, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,

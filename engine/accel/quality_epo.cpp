@@ -1,53 +1,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
-#include <array>
+#include <algorithm>
 #include <functional>
+#include <numeric>
 
+#include "engine/accel/build_clip.h"
 #include "engine/accel/quality.h"
 
 namespace raylab {
 namespace {
-
-/// A triangle after clips. One clip leaves at most half as many vertices more, also of a polygon that rounding has made
-/// concave: 3, 4, 6, 9, 13, 19, 28 after six planes.
-struct Polygon {
-    std::array<glm::dvec3, 28> vertices;
-    size_t size = 0;
-
-    double area() const {
-        glm::dvec3 sum(0.0);
-        for (size_t i = 2; i < size; ++i) sum += glm::cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
-        return 0.5 * glm::length(sum);
-    }
-};
-
-/// The part where sign * (coordinate - plane) >= 0 (Sutherland and Hodgman 1974).
-Polygon clip(const Polygon& polygon, int axis, double plane, double sign) {
-    Polygon inside;
-    for (size_t i = 0; i < polygon.size; ++i) {
-        const glm::dvec3& a = polygon.vertices[i];
-        const glm::dvec3& b = polygon.vertices[(i + 1) % polygon.size];
-        const double fromA = sign * (a[axis] - plane);
-        const double fromB = sign * (b[axis] - plane);
-        if (fromA >= 0.0) inside.vertices[inside.size++] = a;
-        if ((fromA > 0.0 && fromB < 0.0) || (fromA < 0.0 && fromB > 0.0)) {
-            glm::dvec3 crossing = a + (b - a) * (fromA / (fromA - fromB));
-            crossing[axis] = plane;
-            inside.vertices[inside.size++] = crossing;
-        }
-    }
-    return inside;
-}
-
-/// The part of a triangle inside a box; `around` is the triangle's own box.
-Polygon clip(Polygon polygon, const Aabb& around, const Aabb& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (around.lo[axis] < box.lo[axis]) polygon = clip(polygon, axis, static_cast<double>(box.lo[axis]), 1.0);
-        if (around.hi[axis] > box.hi[axis]) polygon = clip(polygon, axis, static_cast<double>(box.hi[axis]), -1.0);
-    }
-    return polygon;
-}
 
 bool overlap(const Aabb& a, const Aabb& b) {
     return glm::all(glm::lessThanEqual(a.lo, b.hi)) && glm::all(glm::lessThanEqual(b.lo, a.hi));
@@ -57,7 +19,11 @@ bool overlap(const Aabb& a, const Aabb& b) {
 struct Slots {
     uint32_t begin;
     uint32_t end;
-    bool hold(size_t slot) const { return slot >= begin && slot < end; }
+    /// Whether any of some slots, in order, is below the node: one slot but for duplicated primitives.
+    bool holdAny(std::span<const uint32_t> slots) const {
+        const auto next = std::lower_bound(slots.begin(), slots.end(), begin);
+        return next != slots.end() && *next < end;
+    }
 };
 
 std::vector<Slots> slotsBelow(const Bvh& bvh) {
@@ -70,12 +36,28 @@ std::vector<Slots> slotsBelow(const Bvh& bvh) {
     return slots;
 }
 
+/// The slots of Bvh::order that hold each primitive, in order.
+struct SlotsOfPrimitives {
+    std::vector<uint32_t> slots;
+    std::vector<uint32_t> firsts;  ///< of primitive i: slots[firsts[i]] to slots[firsts[i + 1]]
+
+    SlotsOfPrimitives(const std::vector<uint32_t>& order, size_t primitives)
+        : slots(order.size()), firsts(primitives + 1, 0) {
+        for (const uint32_t primitive : order) ++firsts[primitive];
+        std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+        for (size_t slot = order.size(); slot-- > 0;) slots[--firsts[order[slot]]] = static_cast<uint32_t>(slot);
+    }
+    std::span<const uint32_t> of(size_t primitive) const {
+        return std::span(slots).subspan(firsts[primitive], firsts[primitive + 1] - firsts[primitive]);
+    }
+};
+
 struct Overlap {
     const Bvh& bvh;
     const BvhConfig& config;
     const std::vector<Slots>& slots;
-    size_t slot;
-    Polygon triangle;
+    std::span<const uint32_t> held;  ///< the triangle's own
+    ClippedTriangle triangle;
     Aabb around;
 
     double cost(const BvhNode& node) const {
@@ -86,7 +68,7 @@ struct Overlap {
     double below(size_t index) const {
         const BvhNode& node = bvh.nodes[index];
         double sum = 0.0;
-        if (!slots[index].hold(slot)) {
+        if (!slots[index].holdAny(held)) {
             if (!overlap(node.bounds, around)) return 0.0;
             const double area = clip(triangle, around, node.bounds).area();
             if (!(area > 0.0)) return 0.0;
@@ -109,21 +91,17 @@ double measureEpo(const Bvh& bvh, std::span<const glm::vec3> positions, std::spa
                   const BvhConfig& config) {
     if (bvh.nodes.empty()) return 0.0;
     const std::vector<Slots> slots = slotsBelow(bvh);
-    const auto addTriangle = [&](size_t slot) -> Sums {
-        const glm::uvec3& triangle = triangles[bvh.order[slot]];
-        Polygon polygon;
-        Aabb box;
-        for (int corner = 0; corner < 3; ++corner) {
-            const glm::vec3& position = positions[triangle[corner]];
-            polygon.vertices[polygon.size++] = glm::dvec3(position);
-            box.grow(position);
-        }
-        return {Overlap{bvh, config, slots, slot, polygon, box}.below(0), polygon.area()};
+    const SlotsOfPrimitives slotsOf(bvh.order, triangles.size());
+    const auto addTriangle = [&](size_t primitive) -> Sums {
+        const std::span<const uint32_t> held = slotsOf.of(primitive);
+        if (held.empty()) return {};
+        const ClippedTriangle triangle(positions, triangles[primitive]);
+        return {Overlap{bvh, config, slots, held, triangle, triangle.bounds()}.below(0), triangle.area()};
     };
     const Sums sums = tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<size_t>(0, bvh.order.size(), 1024), Sums{},
+        tbb::blocked_range<size_t>(0, triangles.size(), 1024), Sums{},
         [&](const tbb::blocked_range<size_t>& range, Sums partial) {
-            for (size_t slot = range.begin(); slot != range.end(); ++slot) partial = partial + addTriangle(slot);
+            for (size_t i = range.begin(); i != range.end(); ++i) partial = partial + addTriangle(i);
             return partial;
         },
         std::plus<>());

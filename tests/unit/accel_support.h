@@ -20,7 +20,7 @@ struct TestMesh {
 
     void add(const glm::vec3& p0, const glm::vec3& p1, const glm::vec3& p2) {
         const auto first = static_cast<uint32_t>(positions.size());
-        positions.insert(positions.end(), {p0, p1, p2});
+        for (const glm::vec3& corner : {p0, p1, p2}) positions.push_back(corner);
         triangles.emplace_back(first, first + 1, first + 2);
     }
 };
