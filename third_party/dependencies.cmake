@@ -7,6 +7,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(TBB REQUIRED)
+find_package(embree 3 QUIET)
 find_program(GLSLANG NAMES glslangValidator glslang REQUIRED)
 
 add_library(stb INTERFACE)

@@ -1,13 +1,10 @@
 #include "engine/accel/layout_bvh2q.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <string>
 
-#include "engine/core/error.h"
+#include "engine/accel/layout_binary.h"
 
 namespace raylab {
 namespace {
@@ -47,65 +44,37 @@ void quantise(const Grid& grid, const Aabb& box, uint32_t (&words)[3]) {
     for (int axis = 0; axis < 3; ++axis) words[axis] = quantise(grid, axis, box.lo[axis], box.hi[axis]);
 }
 
-/// A tree that is one leaf: its halves, or its only primitive twice.
-NodeBvh2q flattenLeafRoot(const BvhNode& leaf, const Grid& grid, uint32_t primitiveBase) {
-    const uint32_t first = primitiveBase + leaf.first;
-    const uint32_t half = (leaf.count + 1) / 2;
-    NodeBvh2q node;
-    quantise(grid, leaf.bounds, node.box0);
-    quantise(grid, leaf.bounds, node.box1);
-    node.child0 = leafReference(first, half);
-    node.child1 = leaf.count == 1 ? node.child0 : leafReference(first + half, leaf.count - half);
-    return node;
-}
-
-/// How many inner nodes come before each node.
-std::vector<uint32_t> innerNodesBefore(const std::vector<BvhNode>& nodes, uint32_t& total) {
-    std::vector<uint32_t> before(nodes.size());
-    total = 0;
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        before[i] = total;
-        total += nodes[i].isLeaf() ? 0u : 1u;
-    }
-    return before;
-}
-
-void check(const Bvh& bvh, uint32_t nodeBase, uint32_t primitiveBase) {
-    if (static_cast<uint64_t>(nodeBase) + bvh.nodes.size() > kLeafBit)
-        throw Error("BVH: node references need more than 31 bits; use fewer or smaller meshes");
-    if (static_cast<uint64_t>(primitiveBase) + bvh.order.size() > kMaxBvhPrimitives)
-        throw Error("BVH: more than " + std::to_string(kMaxBvhPrimitives) +
-                    " primitives in all trees together; use fewer or smaller meshes");
+/// Makes the nodes in `out`, as NodeBvh2q or in words.
+template <class Word>
+Grid flattenInto(const Bvh& bvh, uint32_t nodeBase, uint32_t slotBase, std::vector<Word>& out) {
+    const Grid grid = gridFor(bvh.nodes[0].bounds);
+    const auto makeNode = [&](const Aabb& box0, const Aabb& box1, uint32_t child0, uint32_t child1) {
+        NodeBvh2q node;
+        quantise(grid, box0, node.box0);
+        quantise(grid, box1, node.box1);
+        node.child0 = child0;
+        node.child1 = child1;
+        return node;
+    };
+    flattenBinary<NodeBvh2q>(bvh, nodeBase, slotBase, makeNode, out);
+    return grid;
 }
 
 }  // namespace
 
 TreeBvh2q flattenBvh2q(const Bvh& bvh, uint32_t nodeBase, uint32_t primitiveBase) {
-    check(bvh, nodeBase, primitiveBase);
     TreeBvh2q tree;
     if (bvh.nodes.empty()) return tree;
-    tree.grid = gridFor(bvh.nodes[0].bounds);
+    tree.grid = flattenInto(bvh, nodeBase, primitiveBase, tree.nodes);
     tree.depth = std::max(bvh.depth, 1u);
-    if (bvh.nodes[0].isLeaf()) {
-        tree.nodes = {flattenLeafRoot(bvh.nodes[0], tree.grid, primitiveBase)};
-        return tree;
-    }
-    uint32_t innerNodes = 0;
-    const std::vector<uint32_t> index = innerNodesBefore(bvh.nodes, innerNodes);
-    tree.nodes.resize(innerNodes);
-    const auto reference = [&](uint32_t child) {
-        const BvhNode& node = bvh.nodes[child];
-        return node.isLeaf() ? leafReference(primitiveBase + node.first, node.count) : nodeBase + index[child];
-    };
-    tbb::parallel_for(size_t{0}, bvh.nodes.size(), [&](size_t i) {
-        const BvhNode& source = bvh.nodes[i];
-        if (source.isLeaf()) return;
-        NodeBvh2q& node = tree.nodes[index[i]];
-        quantise(tree.grid, bvh.nodes[source.left].bounds, node.box0);
-        quantise(tree.grid, bvh.nodes[source.left + 1].bounds, node.box1);
-        node.child0 = reference(source.left);
-        node.child1 = reference(source.left + 1);
-    });
+    return tree;
+}
+
+FlatTree flattenTreeBvh2q(const Bvh& bvh, uint32_t nodeBase, uint32_t slotBase) {
+    FlatTree tree;
+    if (bvh.nodes.empty()) return tree;
+    tree.grid = flattenInto(bvh, nodeBase, slotBase, tree.words);
+    finishBinary<NodeBvh2q>(bvh, nodeBase, tree);
     return tree;
 }
 

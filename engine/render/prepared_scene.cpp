@@ -3,6 +3,7 @@
 #include "engine/core/file.h"
 #include "engine/core/stopwatch.h"
 #include "engine/render/camera.h"
+#include "engine/render/device_defaults.h"
 #include "shaders/shared/bindings.h"
 
 namespace raylab {
@@ -10,10 +11,12 @@ namespace raylab {
 PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings) {
     PreparedScene prepared;
     prepared.camera = chooseCamera(scene, settings.camera);
-    prepared.needs = analyseNeeds(scene);
-    prepared.kernelNeeds = settings.needs == "full" ? shared::kNeedAll : prepared.needs.mask;
     prepared.tracer = makeTracer(settings.tracer);
-    prepared.tracer->build(device, scene, {});
+    const TraceConfig config =
+        prepared.tracer->adapt(traceConfig(resolveForDevice(settings, device.description())));
+    prepared.needs = analyseNeeds(scene, treePlanConfig(config));
+    prepared.kernelNeeds = settings.needs == "full" ? shared::kNeedAll : prepared.needs.mask;
+    prepared.tracer->build(device, scene, config);
     Stopwatch watch;
     prepared.gpu = std::make_unique<GpuScene>(device, scene);
     prepared.packSeconds = watch.seconds();
@@ -44,10 +47,9 @@ shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSetting
 }
 
 PipelineHandle makeSceneKernel(const Device& device, const PreparedScene& prepared, const KernelLayout& layout,
-                               std::string_view spirv, uint32_t integrator) {
-    std::vector<SpecConstant> constants = prepared.tracer->constants();
+                               std::string_view spirv, std::vector<SpecConstant> constants) {
+    for (const SpecConstant& constant : prepared.tracer->constants()) constants.push_back(constant);
     constants.push_back({shared::kSpecNeeds, prepared.kernelNeeds});
-    constants.push_back({shared::kSpecIntegrator, integrator});
     return makeComputePipeline(device, layout, dataFolder("shaders") / spirv, constants);
 }
 

@@ -29,8 +29,8 @@ void bindScene(const Device& device, const PreparedScene& prepared, const Kernel
 /// Frame parameters of the scene, the camera and the settings.
 shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSettings& settings);
 
-/// A kernel from the shaders folder, specialised to the prepared scene.
+/// A kernel from the shaders folder, specialised to the prepared scene, with constants of its own.
 PipelineHandle makeSceneKernel(const Device& device, const PreparedScene& prepared, const KernelLayout& layout,
-                               std::string_view spirv, uint32_t integrator);
+                               std::string_view spirv, std::vector<SpecConstant> constants);
 
 }  // namespace raylab

@@ -1,10 +1,22 @@
 #include "engine/render/render_settings.h"
 
+#include "engine/accel/builders.h"
+#include "engine/accel/layout.h"
 #include "engine/render/integrators.h"
 #include "engine/render/tonemap.h"
 #include "engine/render/tracer.h"
+#include "engine/render/triangle_record.h"
 
 namespace raylab {
+namespace {
+
+std::vector<std::string> layoutChoices() {
+    std::vector<std::string> choices = layoutNames();
+    choices.emplace(choices.begin(), kAutoLayout);
+    return choices;
+}
+
+}  // namespace
 
 std::span<const Setting<RenderSettings>> renderSettingsTable() {
     using S = RenderSettings;
@@ -17,6 +29,17 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"roulette-depth", &S::rouletteDepth, "events", "Russian roulette may end a path after so many", 0, 1e6},
         {"integrator", &S::integrator, "", "method, or what to show of the first hit", 0, 0, integratorNames()},
         {"tracer", &S::tracer, "", "how rays find triangles", 0, 0, tracerNames()},
+        {"builder", &S::builder, "", "how the BVH over triangles is built", 0, 0, builderNames()},
+        {"layout", &S::layout, "", "how the BVH is laid out for the kernel; auto: what bench --tune found best on the device", 0, 0, layoutChoices()},
+        {"triangle", &S::triangle, "", "test of a ray and a triangle in the software tracers", 0, 0, triangleTestNames()},
+        {"leaf-size", &S::leafSize, "triangles", "in a leaf of the BVH at most; layouts of blocks: 1", 1, kMaxLeafSize},
+        {"bins", &S::bins, "", "of the binned and spatial builders on each axis", 2, kMaxBvhBins},
+        {"traversal-cost", &S::traversalCost, "", "of a node, for the SAH", 0, 1e6},
+        {"intersection-cost", &S::intersectionCost, "", "of a triangle, for the SAH, in the same unit", 1e-6, 1e6},
+        {"spatial-budget", &S::spatialBudget, "", "duplicates that the spatial builder may make, as a part of the triangles", 0, kMaxSpatialBudget},
+        {"reinsertion", &S::reinsertion, "rounds", "of tree optimisation after the build at most", 0, 1e4},
+        {"flatten-limit", &S::flattenLimit, "triangles", "that a scene may show and still be one tree; beyond: a tree a mesh, and one over instances", 0, 1e12},
+        {"bvh-cache", &S::bvhCache, "", "keep trees on disk, in $XDG_CACHE_HOME/raylab/bvh, and take them from there"},
         {"needs", &S::needs, "", "what the kernel contains: what the scene needs, or everything", 0, 0, {"scene", "full"}},
         {"camera", &S::camera, "", "number or name of a camera of the scene, or px,py,pz,tx,ty,tz,fov: position, target, vertical degrees"},
         {"time-limit", &S::timeLimit, "s", "stop rendering after so long, once every pixel has a sample; 0: no limit", 0, 1e9},
@@ -32,6 +55,22 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"validation", &S::validation, "", "Vulkan core and synchronisation validation; a message makes the run fail"},
     };
     return table;
+}
+
+TraceConfig traceConfig(const RenderSettings& settings) {
+    TraceConfig config;
+    config.builder = settings.builder;
+    config.layout = settings.layout == kAutoLayout ? kDefaultLayout : settings.layout;
+    config.triangle = settings.triangle;
+    config.bvh.maxLeafSize = static_cast<int>(settings.leafSize);
+    config.bvh.bins = static_cast<int>(settings.bins);
+    config.bvh.traversalCost = static_cast<float>(settings.traversalCost);
+    config.bvh.intersectionCost = static_cast<float>(settings.intersectionCost);
+    config.bvh.spatialBudget = static_cast<float>(settings.spatialBudget);
+    config.reinsertionPasses = static_cast<int>(settings.reinsertion);
+    config.flattenLimit = static_cast<size_t>(settings.flattenLimit);
+    config.cache = settings.bvhCache;
+    return config;
 }
 
 }  // namespace raylab

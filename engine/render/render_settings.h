@@ -3,10 +3,16 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "engine/core/settings.h"
+#include "engine/render/trace_data.h"
 
 namespace raylab {
+
+/// The layout that resolveForDevice() replaces by what is best on a device, and what it is where nothing is recorded.
+constexpr std::string_view kAutoLayout = "auto";
+constexpr std::string_view kDefaultLayout = "bvh4b";
 
 /// Every setting of a rendering with its default; renderSettingsTable() says the rest.
 struct RenderSettings {
@@ -18,6 +24,17 @@ struct RenderSettings {
     int64_t rouletteDepth = 3;
     std::string integrator = "path";
     std::string tracer = "software";
+    std::string builder = std::string(kDefaultBuilder);
+    std::string layout{kAutoLayout};
+    std::string triangle = "watertight";
+    int64_t leafSize = BvhConfig{}.maxLeafSize;
+    int64_t bins = BvhConfig{}.bins;
+    double traversalCost = double{BvhConfig{}.traversalCost};
+    double intersectionCost = double{BvhConfig{}.intersectionCost};
+    double spatialBudget = double{BvhConfig{}.spatialBudget};
+    int64_t reinsertion = 0;
+    int64_t flattenLimit = static_cast<int64_t>(TreePlanConfig{}.flattenLimit);
+    bool bvhCache = false;
     std::string needs = "scene";
     std::string camera = "0";
     double timeLimit = 0.0;
@@ -34,5 +51,8 @@ struct RenderSettings {
 };
 
 std::span<const Setting<RenderSettings>> renderSettingsTable();
+
+/// The settings that the trees of a software traversal are built by; kDefaultLayout where the layout is not resolved.
+TraceConfig traceConfig(const RenderSettings& settings);
 
 }  // namespace raylab

@@ -8,9 +8,12 @@
 namespace raylab {
 namespace {
 
-/// The first dispatch is small, and the next at most so many times as large: an estimate from cheap tiles (sky) must not
-/// send a dispatch of costly ones that holds the device for long.
-constexpr uint32_t kFirstTileCount = 2;
+/// The smallest piece of work is a block of lanes of one tile. The first dispatch is small, and the next at most so
+/// many times as large: an estimate from cheap tiles (sky) must not send a dispatch of costly ones that holds the
+/// device for long.
+constexpr uint32_t kBlockLanes = 8;
+constexpr uint32_t kBlocksPerTile = shared::kWorkgroupSize / kBlockLanes;
+constexpr uint32_t kFirstBlockCount = 1;
 constexpr uint32_t kGrowth = 2;
 constexpr uint32_t kMostSamplesAtOnce = 64;
 constexpr double kMemory = 0.8;
@@ -26,10 +29,14 @@ KernelLayout makeLayout(const Device& device, const PreparedScene& prepared) {
 }  // namespace
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings)
-    : device_(device), settings_(settings), prepared_(prepareScene(device, scene, settings)),
-      frame_(makeFrame(prepared_, settings)), film_(device, frame_.width, frame_.height) {
+    : device_(device),
+      settings_(settings),
+      prepared_(prepareScene(device, scene, settings)),
+      frame_(makeFrame(prepared_, settings)),
+      film_(device, frame_.width, frame_.height) {
     Stopwatch watch;
-    frameBuffer_ = makeDeviceBuffer(device, "frame", std::as_bytes(std::span(&frame_, 1)), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    frameBuffer_ =
+        makeDeviceBuffer(device, "frame", std::as_bytes(std::span(&frame_, 1)), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     layout_ = makeLayout(device, prepared_);
     bindScene(device, prepared_, layout_);
     bindBuffer(device, layout_, {shared::kBindFrame, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, frameBuffer_.get(), 0,
@@ -38,22 +45,29 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     times_.build = prepared_.tracer->buildSeconds();
     times_.upload = prepared_.tracer->uploadSeconds() + prepared_.packSeconds + watch.restart();
     pipeline_ = makeSceneKernel(device, prepared_, layout_, prepared_.tracer->info().renderKernel,
-                                findIntegrator(settings.integrator).id);
-    tileCount_ = frame_.tilesPerRow * ((frame_.height + shared::kTileSize - 1) / shared::kTileSize);
+                                {{shared::kSpecIntegrator, findIntegrator(settings.integrator).id}});
+    const uint32_t tileRows = (frame_.height + shared::kTileSize - 1) / shared::kTileSize;
+    blockCount_ = frame_.tilesPerRow * tileRows * kBlocksPerTile;
     dispatch(0, 1, 0, 0);  // lavapipe compiles at the first dispatch
     times_.compile = watch.restart();
     times_.device = 0.0;
     times_.longestDispatch = 0.0;
 }
 
-double Renderer::dispatch(uint32_t firstTile, uint32_t tileCount, uint32_t firstSample, uint32_t sampleCount) {
+/// Blocks within one tile, or whole tiles.
+double Renderer::dispatch(uint32_t firstBlock, uint32_t blockCount, uint32_t firstSample, uint32_t sampleCount) {
+    const uint32_t firstTile = firstBlock / kBlocksPerTile;
+    const uint32_t tileCount = (blockCount + kBlocksPerTile - 1) / kBlocksPerTile;
+    const uint32_t lanes = std::min(blockCount, kBlocksPerTile) * kBlockLanes;
     const uint32_t band = firstTile / frame_.tilesPerRow * shared::kTileSize / film_.rowsPerBand();
-    const shared::RenderPush push{firstTile, band * film_.rowsPerBand(), firstSample, sampleCount};
+    const shared::RenderPush push{
+        firstTile, band * film_.rowsPerBand(), firstSample, sampleCount, firstBlock % kBlocksPerTile * kBlockLanes,
+        lanes};
     const auto offset = static_cast<uint32_t>(band * film_.bandBytes());
     const double seconds = device_.run("render", [&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipelineLayout.get(), 0, 1, &layout_.set,
-                                1, &offset);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipelineLayout.get(), 0, 1,
+                                &layout_.set, 1, &offset);
         vkCmdPushConstants(commands, layout_.pipelineLayout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
         vkCmdDispatch(commands, tileCount, 1, 1);
     });
@@ -62,23 +76,26 @@ double Renderer::dispatch(uint32_t firstTile, uint32_t tileCount, uint32_t first
     return seconds;
 }
 
-/// Tiles of the next dispatch: within the pass, within the film band, and about as many as a slice holds.
-uint32_t Renderer::chooseTileCount() const {
-    const uint32_t tilesPerBand = film_.rowsPerBand() / shared::kTileSize * frame_.tilesPerRow;
-    const uint32_t bandEnd = std::min((nextTile_ / tilesPerBand + 1) * tilesPerBand, tileCount_);
-    uint32_t count = kFirstTileCount;
-    if (lastTileCount_ > 0) {
-        const double perTile = std::max(secondsPerTileSample_ * passSamples_, 1e-9);
-        const double fitting = std::clamp(settings_.sliceMs * 1e-3 / perTile, 1.0, 1e9);
-        count = std::min(static_cast<uint32_t>(fitting), lastTileCount_ * kGrowth);
+/// Blocks of the next dispatch: within the pass, within the film band, and about as many as a slice holds.
+uint32_t Renderer::chooseBlockCount() const {
+    const uint32_t blocksPerBand = film_.rowsPerBand() / shared::kTileSize * frame_.tilesPerRow * kBlocksPerTile;
+    const uint32_t bandEnd = std::min((nextBlock_ / blocksPerBand + 1) * blocksPerBand, blockCount_);
+    uint32_t count = kFirstBlockCount;
+    if (lastBlockCount_ > 0) {
+        const double perBlock = std::max(secondsPerBlockSample_ * passSamples_, 1e-9);
+        const double fitting = std::clamp(settings_.sliceMs * 1e-3 / perBlock, 1.0, 1e9);
+        count = std::min(static_cast<uint32_t>(fitting), lastBlockCount_ * kGrowth);
     }
-    return std::min(count, bandEnd - nextTile_);
+    const uint32_t inTile = nextBlock_ % kBlocksPerTile;
+    if (inTile != 0 || count < kBlocksPerTile) return std::min(count, kBlocksPerTile - inTile);
+    return std::min(count / kBlocksPerTile * kBlocksPerTile, bandEnd - nextBlock_);
 }
 
 /// Samples of the next pass: several where the whole image takes less than a slice.
 void Renderer::chooseSampleCount() {
     const double perSample = passSeconds_ / passSamples_;
-    const double fitting = std::clamp(settings_.sliceMs * 1e-3 / std::max(perSample, 1e-9), 1.0, double{kMostSamplesAtOnce});
+    const double fitting =
+        std::clamp(settings_.sliceMs * 1e-3 / std::max(perSample, 1e-9), 1.0, double{kMostSamplesAtOnce});
     const auto remaining = static_cast<uint32_t>(settings_.spp - passFirst_);
     passSamples_ = std::min({static_cast<uint32_t>(fitting), passSamples_ * kGrowth, std::max(remaining, 1u)});
     passSeconds_ = 0.0;
@@ -86,18 +103,20 @@ void Renderer::chooseSampleCount() {
 
 bool Renderer::step() {
     if (passFirst_ >= static_cast<uint64_t>(settings_.spp)) return false;
-    const uint32_t count = chooseTileCount();
+    const uint32_t count = chooseBlockCount();
     Stopwatch watch;
-    const double seconds = dispatch(nextTile_, count, passFirst_, passSamples_);
+    const double seconds = dispatch(nextBlock_, count, passFirst_, passSamples_);
     times_.render += watch.seconds();
     passSeconds_ += seconds;
-    // Costly tiles are remembered for a while, lest cheap ones (sky) before them lead to a dispatch that is far too long.
-    secondsPerTileSample_ = std::max(seconds / (static_cast<double>(count) * passSamples_), kMemory * secondsPerTileSample_);
-    lastTileCount_ = count;
-    pixelSamples_ += uint64_t{count} * shared::kWorkgroupSize * passSamples_;
-    nextTile_ += count;
-    if (nextTile_ == tileCount_) {
-        nextTile_ = 0;
+    // Costly blocks are remembered for a while, lest cheap ones (sky) before them lead to a dispatch that is far too
+    // long.
+    secondsPerBlockSample_ =
+        std::max(seconds / (static_cast<double>(count) * passSamples_), kMemory * secondsPerBlockSample_);
+    lastBlockCount_ = count;
+    pixelSamples_ += uint64_t{count} * kBlockLanes * passSamples_;
+    nextBlock_ += count;
+    if (nextBlock_ == blockCount_) {
+        nextBlock_ = 0;
         passFirst_ += passSamples_;
         chooseSampleCount();
     }
@@ -105,7 +124,7 @@ bool Renderer::step() {
 }
 
 double Renderer::fractionDone() const {
-    const double inPass = static_cast<double>(nextTile_) / tileCount_ * passSamples_;
+    const double inPass = static_cast<double>(nextBlock_) / blockCount_ * passSamples_;
     return (passFirst_ + inPass) / static_cast<double>(settings_.spp);
 }
 

@@ -40,8 +40,8 @@ public:
     size_t filmBytes() const { return film_.memoryBytes(); }
 
 private:
-    double dispatch(uint32_t firstTile, uint32_t tileCount, uint32_t firstSample, uint32_t sampleCount);
-    uint32_t chooseTileCount() const;
+    double dispatch(uint32_t firstBlock, uint32_t blockCount, uint32_t firstSample, uint32_t sampleCount);
+    uint32_t chooseBlockCount() const;
     void chooseSampleCount();
 
     Device& device_;
@@ -52,12 +52,12 @@ private:
     Buffer frameBuffer_;
     KernelLayout layout_;
     PipelineHandle pipeline_;
-    uint32_t tileCount_ = 0;     ///< of the image
-    uint32_t nextTile_ = 0;      ///< of the pass that is under way
-    uint32_t passFirst_ = 0;     ///< first sample of it
-    uint32_t passSamples_ = 1;   ///< samples of it
-    uint32_t lastTileCount_ = 0;
-    double secondsPerTileSample_ = 0.0;
+    uint32_t blockCount_ = 0;   ///< of the image
+    uint32_t nextBlock_ = 0;    ///< of the pass that is under way
+    uint32_t passFirst_ = 0;    ///< first sample of it
+    uint32_t passSamples_ = 1;  ///< samples of it
+    uint32_t lastBlockCount_ = 0;
+    double secondsPerBlockSample_ = 0.0;
     double passSeconds_ = 0.0;
     uint64_t pixelSamples_ = 0;
     RenderTimes times_;

@@ -1,43 +1,62 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "engine/accel/build_input.h"
+#include "engine/accel/builders.h"
 #include "engine/accel/bvh.h"
-#include "engine/accel/layout_bvh2q.h"
+#include "engine/accel/layout.h"
+#include "engine/scene/needs.h"
 #include "engine/scene/scene.h"
 #include "shaders/shared/scene.h"
 
 namespace raylab {
 
+/// How the trees of a software traversal are built and laid out.
+struct TraceConfig {
+    std::string builder = std::string(kDefaultBuilder);  ///< of builders(); instances are always binned
+    std::string layout = "bvh4b";        ///< of layouts()
+    std::string triangle = "watertight"; ///< of triangleTests()
+    BvhConfig bvh;                       ///< maxLeafSize is lowered to what the layout holds
+    int reinsertionPasses = 0;           ///< of optimise()
+    size_t flattenLimit = TreePlanConfig{}.flattenLimit;
+    bool cache = false;                  ///< look for trees in the cache on disk, and leave them there
+};
+
 /// One tree over triangles: a mesh below instances, or meshes merged in world space (TreePlan).
 struct TriangleTree {
     Bvh bvh;
-    Grid grid;
-    uint32_t depth = 0;  ///< of the flattened tree
-    uint32_t root = 0;   ///< child reference of its first node
+    Grid grid;                  ///< bvh2q only
+    uint32_t root = 0;          ///< reference that a walk of it starts with
+    uint32_t stackEntries = 0;  ///< that a walk of it can fill
     uint32_t firstTriangle = 0;
     uint32_t triangleCount = 0;
     bool merged = false;
     uint32_t mesh = 0;  ///< where not merged
 };
 
-/// What the software tracers read: all trees in one array of nodes, triangles in leaf order, instances in leaf order of
-/// the upper tree. Without an upper tree the root is the merged tree's.
+/// What the software tracers read: all trees in one array, triangles in the order of the leaves' slots, instances in that of
+/// the upper tree's. Without an upper tree the root is the merged tree's.
 struct TraceData {
-    std::vector<NodeBvh2q> nodes;
-    std::vector<shared::TraceTriangle> triangles;
+    std::vector<glm::uvec4> nodes;                 ///< words of the layout; with the triangles in it where that is a layout of blocks
+    std::vector<shared::TraceTriangle> triangles;  ///< with their vertices
     std::vector<shared::TraceInstance> instances;
-    uint32_t root = 0xffffffffu;  ///< child reference; kEndOfWalk where there is nothing to hit
-    Grid grid{};                  ///< of the root's tree
-    uint32_t stackEntries = 2;    ///< that the deepest walk can fill
+    uint32_t root = kEndOfWalk;  ///< reference; kEndOfWalk where there is nothing to hit
+    Grid grid{};                 ///< of the root's tree
+    uint32_t stackEntries = 2;   ///< that the deepest walk can fill
+    size_t nodeCount = 0;
     std::vector<TriangleTree> trees;
-    Bvh upper;                    ///< over instances; empty without
-    uint32_t upperDepth = 0;
+    Bvh upper;                   ///< over instances; empty without
     size_t skippedTriangles = 0;  ///< degenerate or not finite: no ray can hit them
 };
 
-/// Builds all trees. Throws Error where the scene has more triangles than child references can address (2^27).
-TraceData buildTraceData(const Scene& scene, const BvhConfig& config);
+/// What planTrees() and analyseNeeds() want to know of it.
+TreePlanConfig treePlanConfig(const TraceConfig& config);
+
+/// Builds all trees. Throws Error where the scene has more triangles than child references can address, and for names that no
+/// table holds; Cancelled as buildBvh() does.
+TraceData buildTraceData(const Scene& scene, const TraceConfig& config, const BuildControl& control = {});
 
 }  // namespace raylab

@@ -25,8 +25,10 @@ class Tracer {
 public:
     virtual ~Tracer() = default;
     virtual const TracerInfo& info() const = 0;
-    /// Builds for `scene`, on the host and on the device. Throws Error where the scene is too large.
-    virtual void build(Device& device, const Scene& scene, const BvhConfig& config) = 0;
+    /// `config` with what this backend cannot do replaced by what it does.
+    virtual TraceConfig adapt(TraceConfig config) const = 0;
+    /// Builds for `scene` by an adapted config, on the host and on the device. Throws Error where the scene is too large.
+    virtual void build(Device& device, const Scene& scene, const TraceConfig& config) = 0;
     /// Descriptor bindings beyond those of the scene, and their buffers.
     virtual std::vector<BindingInfo> bindings() const = 0;
     virtual void bind(const Device& device, const KernelLayout& layout) const = 0;

@@ -10,7 +10,8 @@ class SoftwareTracer : public Tracer {
 public:
     explicit SoftwareTracer(const TracerInfo& info) : info_(info) {}
     const TracerInfo& info() const override { return info_; }
-    void build(Device& device, const Scene& scene, const BvhConfig& config) override;
+    TraceConfig adapt(TraceConfig config) const override;
+    void build(Device& device, const Scene& scene, const TraceConfig& config) override;
     std::vector<BindingInfo> bindings() const override;
     void bind(const Device& device, const KernelLayout& layout) const override;
     std::vector<SpecConstant> constants() const override;
@@ -21,7 +22,11 @@ public:
     double uploadSeconds() const override { return uploadSeconds_; }
 
 private:
+    std::vector<glm::uvec4> packTriangles() const;
+
     TracerInfo info_;
+    uint32_t layout_ = 0;        ///< kLayout...
+    uint32_t triangleTest_ = 0;  ///< kTriangle...
     TraceData data_;
     TexelBuffer nodes_, triangles_, instances_;
     double buildSeconds_ = 0.0;

@@ -81,29 +81,35 @@ Need smoothNeed(const Scene& scene, const TreePlan& plan) {
             n > 0 ? count(n, "mesh has", "meshes have") + " vertex normals" : "all meshes are flat"};
 }
 
+/// Edges shorter than this get lost on a grid over the world.
+double finestEdge(const Scene& scene) {
+    const Bounds bounds = sceneBounds(scene);
+    const glm::vec3 extent = bounds.hi - bounds.lo;
+    return kFinestSteps * static_cast<double>(std::max({extent.x, extent.y, extent.z})) / kGridSteps;
+}
+
 }  // namespace
 
-TreePlan planTrees(const Scene& scene) {
+TreePlan planTrees(const Scene& scene, const TreePlanConfig& config) {
     TreePlan plan;
     plan.useCount.resize(scene.meshes.size(), 0);
     plan.ownTree.resize(scene.meshes.size(), false);
     for (const Instance& instance : scene.instances) ++plan.useCount[instance.mesh];
-    const Bounds bounds = sceneBounds(scene);
-    const glm::vec3 extent = bounds.hi - bounds.lo;
-    const double finest = kFinestSteps * static_cast<double>(std::max({extent.x, extent.y, extent.z})) / kGridSteps;
+    const double finest = config.gridOverTree ? finestEdge(scene) : 0.0;
+    const bool flattens = triangleCount(scene).instanced <= config.flattenLimit;
     for (const Instance& instance : scene.instances) {
         const size_t mesh = instance.mesh;
-        const bool isShared = plan.useCount[mesh] > 1;
+        const bool isShared = plan.useCount[mesh] > 1 && !flattens;
         if (plan.ownTree[mesh]) continue;
-        if (!isShared && typicalEdge(scene.meshes[mesh], instance.objectToWorld) >= finest) continue;
+        if (!isShared && !(finest > 0.0 && typicalEdge(scene.meshes[mesh], instance.objectToWorld) < finest)) continue;
         plan.ownTree[mesh] = true;
         ++(isShared ? plan.sharedMeshes : plan.fineMeshes);
     }
     return plan;
 }
 
-SceneNeeds analyseNeeds(const Scene& scene) {
-    const TreePlan plan = planTrees(scene);
+SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
+    const TreePlan plan = planTrees(scene, config);
     const std::vector<const Material*> worn = wornMaterials(scene, plan);
     SceneNeeds result;
     result.needs = {

@@ -23,8 +23,17 @@ struct SceneNeeds {
     std::vector<Need> needs;  ///< all features, in the order of their bits
 };
 
-/// How the trees are laid out: a mesh has a tree of its own below an instance where it is shown more than once, or where
-/// its detail is too fine for the grid of a tree that spans the world; all others are merged into one tree in world space.
+/// What decides how many trees there are.
+struct TreePlanConfig {
+    /// Triangles that a scene may show and still have all of them in one tree in world space, instances of one mesh included:
+    /// rays are faster then, at the price of memory.
+    size_t flattenLimit = 4'000'000;
+    bool gridOverTree = false;  ///< boxes are quantised on a grid over a whole tree, which has only so many steps
+};
+
+/// How the trees are laid out. All in one tree in world space, unless the scene shows too many triangles: then a mesh that is
+/// shown more than once has a tree of its own below its instances, and so has one whose detail is too fine for a grid over the
+/// world.
 struct TreePlan {
     std::vector<uint32_t> useCount;  ///< instances by mesh
     std::vector<bool> ownTree;       ///< by mesh; false also for meshes that no instance shows
@@ -34,9 +43,9 @@ struct TreePlan {
     bool hasUpperTree() const { return sharedMeshes + fineMeshes > 0; }
 };
 
-TreePlan planTrees(const Scene& scene);
+TreePlan planTrees(const Scene& scene, const TreePlanConfig& config);
 
 /// Walks the scene's data once. `scene.environment` and the lights must be those that will be rendered.
-SceneNeeds analyseNeeds(const Scene& scene);
+SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config = {});
 
 }  // namespace raylab

@@ -1,4 +1,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "trace/bvh2q.glsl"
+#include "trace/software.glsl"
 #include "film/render_main.glsl"

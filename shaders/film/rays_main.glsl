@@ -1,21 +1,32 @@
 // Traces a list of rays: what tests, benchmarks and comparisons of traversals run.
 layout(local_size_x = kWorkgroupSize) in;
-layout(set = 0, binding = kBindRays, std430) readonly buffer RayBlock { RayData rays[]; };
+layout(set = 0, binding = kBindRays) uniform samplerBuffer rayWords;
 layout(set = 0, binding = kBindHits, std430) writeonly buffer HitBlock { HitData hits[]; };
 layout(push_constant) uniform PushBlock { RaysPush push; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
-    RayData data = rays[i];
-    Ray ray = Ray(data.origin, data.tMin, data.direction, data.tMax, i);
-    HitData result = HitData(-1.0, 0.0, 0.0, 0u, 0u, 0u, 0u, 0u);
+    vec4 origin = texelFetch(rayWords, int(i * kWordsRay));
+    vec4 direction = texelFetch(rayWords, int(i * kWordsRay + 1u));
+    Ray ray = Ray(origin.xyz, origin.w, direction.xyz, direction.w, i);
+    // Only what the answer needs: a store is done lane by lane too. The host fills in the rest.
     if (push.anyHit != 0u) {
-        if (traceOccluded(ray)) result.t = 1.0;
+        hits[i].t = traceOccluded(ray) ? 1.0 : -1.0;
     } else {
         Hit hit;
-        if (traceClosest(ray, hit))
-            result = HitData(hit.t, hit.barycentrics.x, hit.barycentrics.y, hit.instance, hit.primitive, 0u, 0u, 0u);
+        bool any = traceClosest(ray, hit);
+        hits[i].t = any ? hit.t : -1.0;
+        if (any) {
+            hits[i].u = hit.barycentrics.x;
+            hits[i].v = hit.barycentrics.y;
+            hits[i].instance = hit.instance;
+            hits[i].primitive = hit.primitive;
+        }
     }
-    hits[i] = result;
+    if (kCount != 0u) {
+        hits[i].nodes = countedNodes;
+        hits[i].triangles = countedTriangles;
+        hits[i].instances = countedInstances;
+    }
 }

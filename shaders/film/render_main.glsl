@@ -1,4 +1,4 @@
-// A workgroup renders a tile of 8 x 8 pixels; a dispatch is a range of tiles and of samples.
+// A workgroup renders a tile of 8 x 8 pixels, or some of its lanes; a dispatch is a range of tiles and of samples.
 #include "film/accumulate.glsl"
 #include "integrators/integrate.glsl"
 
@@ -13,6 +13,7 @@ uvec2 pixelInTile(uint lane) {
 }
 
 void main() {
+    if (gl_LocalInvocationID.x - push.firstLane >= push.laneCount) return;
     uint tile = push.firstTile + gl_WorkGroupID.x;
     uvec2 corner = uvec2(tile % frame.tilesPerRow, tile / frame.tilesPerRow) * kTileSize;
     uvec2 pixel = corner + pixelInTile(gl_LocalInvocationID.x);

@@ -4,15 +4,17 @@
 #ifndef RAYLAB_ENVIRONMENT_GLSL
 #define RAYLAB_ENVIRONMENT_GLSL
 
+#include "lib/convert.glsl"
 #include "lib/sampling.glsl"
 #include "lib/scene_buffers.glsl"
 
 vec2 environmentUv(vec3 d) { return vec2(0.5 + atan(d.x, -d.z) * (0.5 * kInvPi), acos(clamp(d.y, -1.0, 1.0)) * kInvPi); }
 
+// -1 <= cell <= size.
 int environmentTexel(ivec2 cell) {
     int w = int(frame.environmentWidth), h = int(frame.environmentHeight);
-    int x = cell.x % w;
-    return clamp(cell.y, 0, h - 1) * w + (x < 0 ? x + w : x);
+    int x = cell.x < 0 ? cell.x + w : (cell.x >= w ? cell.x - w : cell.x);
+    return clamp(cell.y, 0, h - 1) * w + x;
 }
 
 // Density over solid angle of a texel whose relative density over the map is `relative`.
@@ -29,9 +31,9 @@ vec3 environmentRadiance(vec3 d, out float pdf) {
     }
     vec2 size = vec2(frame.environmentWidth, frame.environmentHeight);
     vec2 at = environmentUv(d) * size;
-    vec2 corner = at - 0.5;
-    ivec2 cell = ivec2(floor(corner));
-    vec2 f = corner - vec2(cell);
+    vec2 corner = floor(at - 0.5);
+    vec2 f = at - 0.5 - corner;
+    ivec2 cell = wholeToInt(corner);
     vec4 c00 = texelFetch(environmentTexels, environmentTexel(cell));
     vec4 c10 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(1, 0)));
     vec4 c01 = texelFetch(environmentTexels, environmentTexel(cell + ivec2(0, 1)));
@@ -55,7 +57,7 @@ vec3 sampleEnvironment(vec2 choice, vec2 within) {
     uint texel = min(uint(choice.x * float(count)), count - 1u);
     uvec2 entry = texelFetch(environmentAlias, int(texel)).xy;
     if (choice.y >= uintBitsToFloat(entry.x)) texel = entry.y;
-    vec2 centre = vec2(texel % frame.environmentWidth, texel / frame.environmentWidth) + 0.5;
+    vec2 centre = vec2(divideByWidth(int(texel), int(frame.environmentWidth)).yx) + 0.5;
     vec2 at = centre + vec2(sampleTent(within.x), sampleTent(within.y));
     float height = float(frame.environmentHeight);
     at.y = at.y > height ? 2.0 * height - at.y : abs(at.y);  // rows beyond a pole repeat the last one

@@ -10,6 +10,9 @@
 layout(constant_id = kSpecNeeds) const uint kNeeds = kNeedAll;
 layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorPath;
 layout(constant_id = kSpecStackSize) const uint kStackSize = 64;
+layout(constant_id = kSpecCount) const uint kCount = 0;
+layout(constant_id = kSpecLayout) const uint kLayout = kLayoutBvh4b;
+layout(constant_id = kSpecTriangle) const uint kTriangleTest = kTriangleWatertight;
 
 bool needs(uint bit) { return (kNeeds & bit) != 0u; }
 

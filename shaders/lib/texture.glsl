@@ -5,18 +5,21 @@
 #ifndef RAYLAB_TEXTURE_GLSL
 #define RAYLAB_TEXTURE_GLSL
 
+#include "lib/convert.glsl"
 #include "lib/scene_buffers.glsl"
 
 vec3 srgbToLinear(vec3 c) {
     return mix(c * (1.0 / 12.92), pow((c + 0.055) * (1.0 / 1.055), vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
-int wrapTexel(int x, int size, uint mode) {
-    if (mode == 1u) return clamp(x, 0, size - 1);
-    int period = mode == 2u ? 2 * size : size;
-    int m = x % period;
-    m = m < 0 ? m + period : m;
-    return m < size ? m : period - 1 - m;
+// Texel x of the repetition `tile` of an image, -1 <= x <= size, by the wrap mode. Without an integer division, which
+// takes lavapipe longer than the rest of the lookup.
+int wrapTexel(int x, int tile, int size, uint mode) {
+    int beyond = x < 0 ? -1 : (x >= size ? 1 : 0);
+    int local = x - beyond * size;
+    int reached = tile + beyond;
+    if (mode == 1u) return reached < 0 ? 0 : (reached > 0 ? size - 1 : local);
+    return mode == 2u && (reached & 1) != 0 ? size - 1 - local : local;
 }
 
 vec4 decodeTexel(uint packed, bool srgb) {
@@ -28,7 +31,7 @@ vec4 decodeTexel(uint packed, bool srgb) {
 vec4 sampleTexture(uint index, vec2 uv, float lod, float u) {
     uvec4 header = texelFetch(textureWords, int(index));
     uint levels = (header.w >> kTextureLevelShift) & 31u;
-    uint level = uint(clamp(floor(lod + u), 0.0, float(levels - 1u)));
+    uint level = uint(wholeToInt(clamp(floor(lod + u), 0.0, float(levels - 1u))));
     int base = int(header.x);
     ivec2 size = ivec2(header.yz);
     for (uint i = 0u; i < level; ++i) {
@@ -40,13 +43,14 @@ vec4 sampleTexture(uint index, vec2 uv, float lod, float u) {
     uint wrapV = (header.w >> 2) & 3u;
     vec2 whole = floor(uv);  // keeps the precision of the fraction for coordinates far from the origin
     vec2 at = (uv - whole) * vec2(size) - 0.5;
-    ivec2 cell = ivec2(floor(at));
-    vec2 f = at - vec2(cell);
-    cell += ivec2(clamp(whole, vec2(-32768.0), vec2(32767.0))) * size;
-    int x0 = wrapTexel(cell.x, size.x, wrapU);
-    int x1 = wrapTexel(cell.x + 1, size.x, wrapU);
-    int y0 = base + wrapTexel(cell.y, size.y, wrapV) * size.x;
-    int y1 = base + wrapTexel(cell.y + 1, size.y, wrapV) * size.x;
+    vec2 corner = floor(at);
+    vec2 f = at - corner;
+    ivec2 cell = wholeToInt(corner);
+    ivec2 tile = wholeToInt(clamp(whole, vec2(-32768.0), vec2(32767.0)));
+    int x0 = wrapTexel(cell.x, tile.x, size.x, wrapU);
+    int x1 = wrapTexel(cell.x + 1, tile.x, size.x, wrapU);
+    int y0 = base + wrapTexel(cell.y, tile.y, size.y, wrapV) * size.x;
+    int y1 = base + wrapTexel(cell.y + 1, tile.y, size.y, wrapV) * size.x;
     vec4 c00 = decodeTexel(texelFetch(texels, y0 + x0).x, srgb);
     vec4 c10 = decodeTexel(texelFetch(texels, y0 + x1).x, srgb);
     vec4 c01 = decodeTexel(texelFetch(texels, y1 + x0).x, srgb);

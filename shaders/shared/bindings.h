@@ -8,8 +8,8 @@ RAYLAB_SHARED_BEGIN
 
 RAYLAB_CONST uint kBindFrame = 0;            // uniform buffer, FrameParams
 RAYLAB_CONST uint kBindFilm = 1;             // dynamic storage buffer, FilmPixel (the band that is being rendered)
-RAYLAB_CONST uint kBindNodes = 2;            // texel buffer, uvec4: two a node (NodeBvh2q)
-RAYLAB_CONST uint kBindTraceTriangles = 3;   // texel buffer, uvec4: three a triangle, in leaf order (TraceTriangle)
+RAYLAB_CONST uint kBindNodes = 2;            // texel buffer, uvec4: nodes of the layout
+RAYLAB_CONST uint kBindTraceTriangles = 3;   // texel buffer, uvec4: three or four a triangle, in the order of the slots
 RAYLAB_CONST uint kBindTraceInstances = 4;   // texel buffer, uvec4: six an instance of a tree (TraceInstance)
 RAYLAB_CONST uint kBindInstances = 5;        // texel buffer, uvec4: four an instance (InstanceData)
 RAYLAB_CONST uint kBindTriangles = 6;        // texel buffer, uvec4: one a triangle of a mesh (vertex indices)
@@ -21,7 +21,7 @@ RAYLAB_CONST uint kBindEmissive = 11;        // texel buffer, uvec4: four an emi
 RAYLAB_CONST uint kBindPunctual = 12;        // texel buffer, uvec4: four a punctual light (PunctualData)
 RAYLAB_CONST uint kBindEnvironment = 13;     // texel buffer, vec4: radiance, relative density of sampling
 RAYLAB_CONST uint kBindEnvironmentAlias = 14;  // texel buffer, uvec2: threshold (float bits), alias
-RAYLAB_CONST uint kBindRays = 15;            // storage buffer, RayData: only in the ray-list kernels
+RAYLAB_CONST uint kBindRays = 15;            // texel buffer, vec4: two a ray (RayData): only in the ray-list kernels
 RAYLAB_CONST uint kBindHits = 16;            // storage buffer, HitData: only in the ray-list kernels
 RAYLAB_CONST uint kBindingCount = 17;
 
@@ -31,6 +31,9 @@ RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;
 RAYLAB_CONST uint kSpecNeeds = 0;       // which NEED_ bits the kernel contains
 RAYLAB_CONST uint kSpecIntegrator = 1;  // IntegratorId
 RAYLAB_CONST uint kSpecStackSize = 2;   // entries of the traversal stack: what this scene's trees can fill
+RAYLAB_CONST uint kSpecCount = 3;       // 1: the traversal counts what it fetches
+RAYLAB_CONST uint kSpecLayout = 4;      // kLayout...
+RAYLAB_CONST uint kSpecTriangle = 5;    // kTriangle...
 
 RAYLAB_SHARED_END
 #endif

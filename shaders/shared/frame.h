@@ -64,8 +64,10 @@ struct RenderPush {
     uint firstRow;    // of pixels, of the film band that is bound
     uint firstSample;
     uint sampleCount;
+    uint firstLane;  // of each workgroup: a part of a tile where a whole one takes too long
+    uint laneCount;
 };
-RAYLAB_CHECK(RenderPush, 16);
+RAYLAB_CHECK(RenderPush, 24);
 
 struct RayData {
     vec3 origin;
@@ -74,6 +76,7 @@ struct RayData {
     float tMax;
 };
 RAYLAB_CHECK(RayData, 32);
+RAYLAB_CONST uint kWordsRay = 2;
 
 struct HitData {
     float t;  // negative: no hit
@@ -81,9 +84,9 @@ struct HitData {
     float v;
     uint instance;
     uint primitive;
-    uint padding0;
-    uint padding1;
-    uint padding2;
+    uint nodes;  // fetched for this ray; these three only where the kernel counts (kSpecCount)
+    uint triangles;
+    uint instances;
 };
 RAYLAB_CHECK(HitData, 32);
 

@@ -8,17 +8,39 @@
 RAYLAB_SHARED_BEGIN
 
 // Traversal: a triangle in leaf order, world space in the merged tree, object space below an instance.
+// Kernels read it as the triangle test wants it (engine/render/triangle_record.h): three words, or four.
 struct TraceTriangle {
     vec3 p0;
-    uint instance;  // kInheritInstance: the instance whose tree this is
+    uint instance;  // of 30 bits; kInheritInstance: the instance whose tree this is
     vec3 p1;
     uint primitive;  // index within its mesh
     vec3 p2;
-    uint alphaTested;  // 1 where a hit must pass acceptsCandidate()
+    uint opacity;  // of 16 microtriangles, two bits each: kOpacity...
 };
 RAYLAB_CHECK(TraceTriangle, 48);
-RAYLAB_CONST uint kWordsTraceTriangle = 3;
-RAYLAB_CONST uint kInheritInstance = 0xffffffffu;
+RAYLAB_CONST uint kInheritInstance = 0x3fffffffu;  // in a Candidate: no hit yet
+RAYLAB_CONST uint kInstanceMask = 0x3fffffffu;
+RAYLAB_CONST uint kBlockIsLeaf = 0x80000000u;  // bvh4b: in the last component of a block's first word
+
+// Opacity of a microtriangle of a triangle that is cut into 16 (Gruen et al., "Sub-Triangle Opacity Masks for Faster Ray
+// Tracing of Transparent Objects", I3D 2020).
+RAYLAB_CONST uint kOpacityUnknown = 0u;  // a hit must pass acceptsCandidate()
+RAYLAB_CONST uint kOpacityTransparent = 1u;
+RAYLAB_CONST uint kOpacityOpaque = 2u;
+RAYLAB_CONST uint kAllOpaque = 0xaaaaaaaau;
+
+// Layouts of the trees, in the order of layouts() in engine/accel/layout.cpp.
+RAYLAB_CONST uint kLayoutBvh2 = 0u;
+RAYLAB_CONST uint kLayoutBvh2q = 1u;
+RAYLAB_CONST uint kLayoutBvh4q = 2u;
+RAYLAB_CONST uint kLayoutBvh8q = 3u;
+RAYLAB_CONST uint kLayoutBvh4b = 4u;
+
+// Triangle tests, in the order of triangleTests() in engine/render/triangle_record.cpp.
+RAYLAB_CONST uint kTriangleMinimal = 0u;
+RAYLAB_CONST uint kTrianglePrecomputed = 1u;
+RAYLAB_CONST uint kTriangleBaldwinWeber = 2u;
+RAYLAB_CONST uint kTriangleWatertight = 3u;
 
 // Traversal: a leaf of the tree over instances. Rows of the 3x4 matrix world to object.
 struct TraceInstance {

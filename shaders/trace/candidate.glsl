@@ -19,23 +19,50 @@ bool idsBefore(uint instanceA, uint primitiveA, uint instanceB, uint primitiveB)
     return instanceA < instanceB || (instanceA == instanceB && primitiveA < primitiveB);
 }
 
-// Ids order hits at equal distance, so that the answer does not depend on the tree.
-void testTriangle(Ray ray, ShearedRay sheared, uint slot, uint owner, inout Candidate hit) {
-    int at = int(slot * kWordsTraceTriangle);
-    uvec4 p0 = texelFetch(traceTriangleWords, at);
-    uvec4 p1 = texelFetch(traceTriangleWords, at + 1);
-    uvec4 p2 = texelFetch(traceTriangleWords, at + 2);
+// kOpacity... of the microtriangle that the barycentrics lie in. Row i of four, from the first vertex towards the second,
+// has 7 - 2i of them, which alternate between upright and turned.
+uint opacityAt(uint opacity, vec2 barycentrics) {
+    vec2 scaled = min(max(barycentrics, 0.0) * 4.0, 3.9999);
+    vec2 corner = floor(scaled);
+    vec2 inCell = scaled - corner;
+    // Small whole numbers from the bits of a float: lavapipe converts one lane after the other.
+    uvec2 cell = floatBitsToUint(corner + 8388608.0) & 3u;
+    uint turned = inCell.x + inCell.y > 1.0 ? 1u : 0u;
+    uint index = cell.x * (8u - cell.x) + min(2u * cell.y + turned, 6u - 2u * cell.x);
+    return (opacity >> (2u * index)) & 3u;
+}
+
+// Ids order hits at equal distance, so that the answer does not depend on the tree. `w0` to `w3`: the triangle's words.
+void considerTriangle(Ray ray, TriangleRay triangleRay, uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uint owner, bool isTriangle,
+                      inout Candidate hit) {
+    if (kCount != 0u && isTriangle) ++countedTriangles;
+    TriangleWords words = TriangleWords(uintBitsToFloat(w0.xyz), uintBitsToFloat(w1.xyz), uintBitsToFloat(w2.xyz),
+                                        uintBitsToFloat(w3.xyz));
     float t;
     vec2 uv;
-    bool accepted = intersectTriangle(sheared, uintBitsToFloat(p0.xyz), uintBitsToFloat(p1.xyz),
-                                      uintBitsToFloat(p2.xyz), ray.tMin, hit.t, t, uv);
-    uint instance = needs(kNeedInstancing) && owner != kInheritInstance ? owner : p0.w;
-    accepted = accepted && (t < hit.t || idsBefore(instance, p1.w, hit.instance, hit.primitive));
+    bool accepted = intersectTriangle(triangleRay, words, ray.tMin, hit.t, t, uv) && isTriangle;
+    uint instance = w0.w & kInstanceMask;
+    if (needs(kNeedInstancing)) instance = owner != kInheritInstance ? owner : instance;
+    accepted = accepted && (t < hit.t || idsBefore(instance, w1.w, hit.instance, hit.primitive));
+    if (needs(kNeedAlpha)) {
+        uint opacity = opacityAt(w2.w, uv);
+        accepted = accepted && opacity != kOpacityTransparent;
+        hit.untested = accepted && opacity == kOpacityUnknown;
+    }
     hit.t = accepted ? t : hit.t;
     hit.barycentrics = accepted ? uv : hit.barycentrics;
     hit.instance = accepted ? instance : hit.instance;
-    hit.primitive = accepted ? p1.w : hit.primitive;
-    if (needs(kNeedAlpha)) hit.untested = accepted && p2.w != 0u;
+    hit.primitive = accepted ? w1.w : hit.primitive;
+}
+
+void testTriangle(Ray ray, TriangleRay triangleRay, uint slot, uint owner, inout Candidate hit) {
+    int at = int(slot * kWordsTraceTriangle);
+    uvec4 w0 = texelFetch(traceTriangleWords, at);
+    uvec4 w1 = texelFetch(traceTriangleWords, at + 1);
+    uvec4 w2 = texelFetch(traceTriangleWords, at + 2);
+    uvec4 w3 = uvec4(0u);
+    if (kWordsTraceTriangle > 3u) w3 = texelFetch(traceTriangleWords, at + 3);
+    considerTriangle(ray, triangleRay, w0, w1, w2, w3, owner, true, hit);
 }
 
 bool acceptsUntested(Candidate hit, uint key) {

@@ -26,6 +26,11 @@ const float kInfinity = 3.0e38;
 
 uint tracedRays = 0u;  // by this invocation
 
+// What the traversal fetched, where the kernel counts.
+uint countedNodes = 0u;
+uint countedTriangles = 0u;
+uint countedInstances = 0u;
+
 vec2 triangleUv(uvec4 indices, vec2 barycentrics) {
     vec2 uv0 = uintBitsToFloat(texelFetch(vertexWords, int(indices.x * kWordsVertex + 1u)).xy);
     vec2 uv1 = uintBitsToFloat(texelFetch(vertexWords, int(indices.y * kWordsVertex + 1u)).xy);

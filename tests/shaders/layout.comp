@@ -75,6 +75,8 @@ void emitBuffers() {
     emit(push.firstRow);
     emit(push.firstSample);
     emit(push.sampleCount);
+    emit(push.firstLane);
+    emit(push.laneCount);
     emit(ray.origin);
     emit(ray.tMin);
     emit(ray.direction);
@@ -84,9 +86,9 @@ void emitBuffers() {
     emit(hit.v);
     emit(hit.instance);
     emit(hit.primitive);
-    emit(hit.padding0);
-    emit(hit.padding1);
-    emit(hit.padding2);
+    emit(hit.nodes);
+    emit(hit.triangles);
+    emit(hit.instances);
     emit(raysPush.count);
     emit(raysPush.anyHit);
 }
@@ -97,7 +99,7 @@ void emitTraversal() {
     emit(traceTriangle.p1);
     emit(traceTriangle.primitive);
     emit(traceTriangle.p2);
-    emit(traceTriangle.alphaTested);
+    emit(traceTriangle.opacity);
     emit(traceInstance.worldToObject0);
     emit(traceInstance.worldToObject1);
     emit(traceInstance.worldToObject2);

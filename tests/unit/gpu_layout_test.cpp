@@ -63,15 +63,15 @@ void numberFrame(Numbering& n, shared::FrameParams& f) {
 void numberBuffers(Numbering& n, Structs& s) {
     n.assign(s.film.sumHi, s.film.count, s.film.sumLo, s.film.nonFinite, s.film.squareHi, s.film.rays);
     n.assign(s.film.squareLo, s.film.padding);
-    n.assign(s.push.firstTile, s.push.firstRow, s.push.firstSample, s.push.sampleCount);
+    n.assign(s.push.firstTile, s.push.firstRow, s.push.firstSample, s.push.sampleCount, s.push.firstLane, s.push.laneCount);
     n.assign(s.ray.origin, s.ray.tMin, s.ray.direction, s.ray.tMax);
-    n.assign(s.hit.t, s.hit.u, s.hit.v, s.hit.instance, s.hit.primitive, s.hit.padding0, s.hit.padding1,
-             s.hit.padding2);
+    n.assign(s.hit.t, s.hit.u, s.hit.v, s.hit.instance, s.hit.primitive, s.hit.nodes, s.hit.triangles,
+             s.hit.instances);
     n.assign(s.raysPush.count, s.raysPush.anyHit);
 }
 
 void numberTraversal(Numbering& n, shared::TraceTriangle& t, shared::TraceInstance& i) {
-    n.assign(t.p0, t.instance, t.p1, t.primitive, t.p2, t.alphaTested);
+    n.assign(t.p0, t.instance, t.p1, t.primitive, t.p2, t.opacity);
     n.assign(i.worldToObject0, i.worldToObject1, i.worldToObject2, i.gridOrigin, i.root, i.gridStep, i.instance);
     n.assign(i.firstTriangle, i.triangleCount, i.padding0, i.padding1);
 }

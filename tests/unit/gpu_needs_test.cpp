@@ -4,6 +4,7 @@
 #include "tests/support/estimate.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/scene_build.h"
+#include "tests/support/trace_choice.h"
 
 namespace raylab::support {
 namespace {
@@ -50,19 +51,22 @@ Scene variousScene() {
 
 using Needs = GpuTest;
 
-/// What a kernel lacks because the scene does not need it must not show.
+/// What a kernel lacks because the scene does not need it must not show, of one tree or a tree below instances.
 TEST_F(Needs, SpecialisedKernelRendersWhatTheFullOneDoes) {
-    RenderSettings settings = smallImage(32, 8, 5);
     const Scene scene = variousScene();
-    ASSERT_NE(analyseNeeds(scene).mask, shared::kNeedAll) << "nothing left to leave out";
-    const FilmImage lean = renderFilm(device_, scene, settings);
-    settings.needs = "full";
-    const FilmImage full = renderFilm(device_, scene, settings);
-    EXPECT_LE(countDifferent(lean.mean, full.mean, 1e-4f), lean.mean.pixels.size() / 100);
-    EXPECT_EQ(lean.nonFinitePixels + full.nonFinitePixels, 0u);
-    settings.tracer = "brute";
-    const FilmImage brute = renderFilm(device_, scene, settings);
-    EXPECT_LE(countDifferent(brute.mean, full.mean, 1e-5f), full.mean.pixels.size() / 1000);
+    for (const RenderSettings& base : {smallImage(32, 8, 5), twoLevels(smallImage(32, 8, 5))}) {
+        RenderSettings settings = base;
+        const uint32_t mask = analyseNeeds(scene, treePlanConfig(traceConfig(settings))).mask;
+        ASSERT_NE(mask, shared::kNeedAll) << "nothing left to leave out";
+        ASSERT_EQ((mask & shared::kNeedInstancing) != 0u, settings.flattenLimit == 0);
+        const FilmImage lean = renderFilm(device_, scene, settings);
+        settings.needs = "full";
+        const FilmImage full = renderFilm(device_, scene, settings);
+        EXPECT_LE(countDifferent(lean.mean, full.mean, 1e-4f), lean.mean.pixels.size() / 100);
+        EXPECT_EQ(lean.nonFinitePixels + full.nonFinitePixels, 0u);
+        const FilmImage brute = renderFilm(device_, scene, bruteForce(settings));
+        EXPECT_LE(countDifferent(brute.mean, full.mean, 1e-5f), full.mean.pixels.size() / 1000);
+    }
 }
 
 /// A scene that needs less and less: the merged tree and flat Lambertian surfaces alone.
