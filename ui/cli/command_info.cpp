@@ -1,15 +1,14 @@
 #include <iomanip>
 #include <iostream>
 
-#include "engine/accel/quality.h"
-#include "engine/core/file.h"
 #include "engine/core/stopwatch.h"
+#include "engine/measure/bvh_report.h"
 #include "engine/render/gpu_data.h"
 #include "engine/render/lighting.h"
-#include "engine/render/trace_data.h"
 #include "engine/scene/bounds.h"
 #include "engine/scene/import.h"
 #include "engine/scene/needs.h"
+#include "ui/cli/bvh_report_output.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/options.h"
 
@@ -17,20 +16,12 @@ namespace raylab {
 namespace {
 
 struct InfoOptions {
+    explicit InfoOptions(CLI::App& command) : settings(command) {}
+
+    SettingOptions settings;
     std::string scene;
     std::string json;
-};
-
-/// Figures of all trees of a scene together.
-struct BvhFigures {
-    double sah = 0.0;  ///< of the walk through the upper tree and the trees below it
-    double epo = 0.0;  ///< of the tree with the most triangles
-    int depth = 0;
-    size_t nodes = 0;
-    size_t trees = 0;
-    double buildMs = 0.0;
-    size_t bytes = 0;
-    size_t skipped = 0;
+    bool bvh = false;
 };
 
 struct Info {
@@ -38,65 +29,10 @@ struct Info {
     Bounds bounds;
     TriangleCount triangles;
     SceneNeeds needs;
-    BvhFigures bvh;
+    BvhReport bvh;
     size_t sceneBytes = 0;
     double importSeconds = 0.0;
 };
-
-double halfArea(const Aabb& box) { return box.empty() ? 0.0 : static_cast<double>(box.halfArea()); }
-
-/// The cost of the upper tree with each leaf's cost replaced by that of the tree below it.
-double combinedSah(const TraceData& data) {
-    if (data.trees.empty()) return 0.0;
-    if (data.upper.nodes.empty()) return measureQuality(data.trees[0].bvh).sah;
-    const double rootArea = halfArea(data.upper.nodes[0].bounds);
-    double inner = 0.0, leaves = 0.0;
-    for (const BvhNode& node : data.upper.nodes) {
-        const double share = rootArea > 0.0 ? halfArea(node.bounds) / rootArea : 0.0;
-        if (!node.isLeaf()) {
-            inner += share;
-            continue;
-        }
-        const uint32_t root = data.instances[node.first].root;
-        for (const TriangleTree& tree : data.trees)
-            if (tree.root == root) leaves += share * measureQuality(tree.bvh).sah;
-    }
-    return inner + leaves;
-}
-
-/// End-point overlap of one tree, over the vertices of its triangles as the tree holds them.
-double treeEpo(const TraceData& data, const TriangleTree& tree) {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::uvec3> triangles(tree.bvh.order.size() + tree.bvh.skipped, glm::uvec3(0));
-    for (uint32_t slot = 0; slot < tree.triangleCount; ++slot) {
-        const shared::TraceTriangle& t = data.triangles[tree.firstTriangle + slot];
-        const auto base = static_cast<uint32_t>(positions.size());
-        positions.insert(positions.end(), {t.p0, t.p1, t.p2});
-        triangles[tree.bvh.order[slot]] = {base, base + 1, base + 2};
-    }
-    return measureEpo(tree.bvh, positions, triangles);
-}
-
-BvhFigures measureBvh(const Scene& scene) {
-    BvhFigures figures;
-    Stopwatch watch;
-    const TraceData data = buildTraceData(scene, {});
-    figures.buildMs = watch.seconds() * 1e3;
-    figures.sah = combinedSah(data);
-    const TriangleTree* largest = nullptr;
-    for (const TriangleTree& tree : data.trees) {
-        if (largest == nullptr || tree.triangleCount > largest->triangleCount) largest = &tree;
-        figures.depth = std::max(figures.depth, static_cast<int>(tree.depth));
-    }
-    if (largest != nullptr) figures.epo = treeEpo(data, *largest);
-    figures.depth += static_cast<int>(data.upperDepth);
-    figures.nodes = data.nodes.size();
-    figures.trees = data.trees.size();
-    figures.skipped = data.skippedTriangles;
-    figures.bytes = std::as_bytes(std::span(data.nodes)).size() + std::as_bytes(std::span(data.triangles)).size() +
-                    std::as_bytes(std::span(data.instances)).size();
-    return figures;
-}
 
 /// What the scene takes on the device apart from the traversal's structures.
 size_t measureSceneBytes(const Scene& scene, float radius) {
@@ -109,16 +45,17 @@ size_t measureSceneBytes(const Scene& scene, float radius) {
            bytes(lights.environment) + bytes(lights.environmentAlias);
 }
 
-Info gather(const std::filesystem::path& path) {
+Info gather(const InfoOptions& options) {
     Info info;
+    const TraceConfig config = traceConfig(options.settings.resolve());
     const Stopwatch watch;
-    info.scene = importScene(path);
+    info.scene = importScene(scenePath(options.scene));
     info.importSeconds = watch.seconds();
     settleEnvironment(info.scene, {});
     info.bounds = sceneBounds(info.scene);
     info.triangles = triangleCount(info.scene);
-    info.needs = analyseNeeds(info.scene);
-    info.bvh = measureBvh(info.scene);
+    info.needs = analyseNeeds(info.scene, treePlanConfig(config));
+    info.bvh = measureBvh(info.scene, config, options.bvh ? BvhDetail::full : BvhDetail::quick);
     info.sceneBytes = measureSceneBytes(info.scene, 0.5f * glm::length(info.bounds.hi - info.bounds.lo));
     return info;
 }
@@ -141,16 +78,8 @@ nlohmann::ordered_json infoJson(const InfoOptions& options, const Info& info) {
             {"cameras", cameras},
             {"bounds", {{"lo", vec(info.bounds.lo)}, {"hi", vec(info.bounds.hi)}}},
             {"needs", needs},
-            {"memoryBytes", info.sceneBytes + info.bvh.bytes},
-            {"bvh",
-             {{"sah", info.bvh.sah},
-              {"epo", info.bvh.epo},
-              {"depth", info.bvh.depth},
-              {"nodes", info.bvh.nodes},
-              {"trees", info.bvh.trees},
-              {"buildMs", info.bvh.buildMs},
-              {"bytes", info.bvh.bytes},
-              {"skippedTriangles", info.bvh.skipped}}},
+            {"memoryBytes", info.sceneBytes + info.bvh.bytes()},
+            {"bvh", bvhReportJson(info.bvh)},
             {"seconds", {{"import", info.importSeconds}}},
             {"warnings", info.scene.warnings}};
 }
@@ -166,12 +95,11 @@ void printInfo(const InfoOptions& options, const Info& info) {
     for (const Camera& camera : s.cameras) std::cout << "  '" << camera.name << "'";
     std::cout << std::setprecision(3) << "\n  bounds      (" << info.bounds.lo.x << ", " << info.bounds.lo.y << ", " << info.bounds.lo.z
               << ") to (" << info.bounds.hi.x << ", " << info.bounds.hi.y << ", " << info.bounds.hi.z << ")\n"
-              << std::setprecision(1) << "  memory      " << mebibytes(info.sceneBytes) << " MiB scene + " << mebibytes(info.bvh.bytes)
+              << std::setprecision(1) << "  memory      " << mebibytes(info.sceneBytes) << " MiB scene + " << mebibytes(info.bvh.bytes())
               << " MiB BVH\n"
-              << "  BVH         " << info.bvh.trees << (info.bvh.trees == 1 ? " tree, " : " trees, ") << info.bvh.nodes << " nodes, depth "
-              << info.bvh.depth << ", SAH " << info.bvh.sah << ", EPO " << info.bvh.epo << ", built in " << info.bvh.buildMs << " ms";
-    if (info.bvh.skipped > 0) std::cout << ", " << info.bvh.skipped << " degenerate triangles left out";
-    std::cout << "\n\nThe kernel for this scene contains\n";
+              << bvhReportLine(info.bvh) << "\n";
+    if (options.bvh) std::cout << bvhReportText(info.bvh);
+    std::cout << "\nThe kernel for this scene contains\n";
     for (const Need& need : info.needs.needs)
         std::cout << "  " << (need.needed ? "[x] " : "[ ] ") << std::left << std::setw(20) << need.name << need.reason << "\n";
     if (!s.warnings.empty()) std::cout << "\nWarnings\n";
@@ -179,7 +107,7 @@ void printInfo(const InfoOptions& options, const Info& info) {
 }
 
 ExitCode showInfo(const InfoOptions& options) {
-    const Info info = gather(scenePath(options.scene));
+    const Info info = gather(options);
     if (!options.json.empty()) writeJson(options.json, infoJson(options, info));
     if (options.json != "-") printInfo(options, info);
     return ExitCode::done;
@@ -189,8 +117,9 @@ ExitCode showInfo(const InfoOptions& options) {
 
 void addInfoCommand(CLI::App& app, Command& chosen) {
     CLI::App* command = app.add_subcommand("info", "contents of a scene, its BVH, and what its kernel needs");
-    const auto options = std::make_shared<InfoOptions>();
+    const auto options = std::make_shared<InfoOptions>(*command);
     command->add_option("scene", options->scene, "glTF, GLB, OBJ, PLY or STL; or the name of a scene of raylab's own")->required();
+    command->add_flag("--bvh", options->bvh, "measure the trees thoroughly: end-point overlap, histograms, times; takes seconds");
     command->add_option("--json", options->json, "write all of it to a file, or - for standard output")->type_name("FILE");
     command->callback([&chosen, options] { chosen = [options] { return showInfo(*options); }; });
 }

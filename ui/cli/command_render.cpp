@@ -4,6 +4,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
+#include "engine/render/device_defaults.h"
 #include "engine/render/lighting.h"
 #include "engine/scene/import.h"
 #include "ui/cli/commands.h"
@@ -74,7 +75,7 @@ std::string summary(const RenderOptions& options, const RenderResult& r) {
 ExitCode render(RenderOptions options) {
     const Stopwatch total;
     setQuiet(options.quiet);
-    const RenderSettings settings = options.settings->resolve();
+    RenderSettings settings = options.settings->resolve();
     const std::filesystem::path path = scenePath(options.scene);
     if (options.output.empty()) options.output = (std::filesystem::path("out") / path.stem()).string() + ".png";
     requireImageExtension(options.output);
@@ -82,6 +83,7 @@ ExitCode render(RenderOptions options) {
     requireWritable(options.output);
 
     Device device({settings.device, settings.validation});
+    settings = resolveForDevice(settings, device.description());
     Stopwatch watch;
     Scene scene = importScene(path);
     const double importSeconds = watch.restart();

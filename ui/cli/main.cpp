@@ -17,6 +17,7 @@ ExitCode runCommandLine(int argc, char** argv) {
     addInfoCommand(app, chosen);
     addDevicesCommand(app, chosen);
     addCompareCommand(app, chosen);
+    addBenchCommand(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/measure/bench_compare.h"
+#include "engine/measure/memory_bench.h"
+#include "ui/cli/bench_run.h"
+
+namespace raylab {
+
+/// What a run of `raylab bench` reports.
+struct BenchRun {
+    Device& device;
+    RenderSettings settings;  ///< resolved
+    int repeats = 5;
+    MemoryBandwidth memory;
+    std::vector<SceneRows> scenes;
+
+    /// Whether the memory that was measured is what rays on the device read.
+    bool memoryIsDevices() const { return device.description().kind == "cpu"; }
+};
+
+std::string subjectText(const SubjectLabel& label);
+void printMemory(const BenchRun& run);
+void printRows(const BenchRun& run, const SceneRows& scene);
+
+/// schema raylab.bench/1.
+nlohmann::ordered_json benchJson(const BenchRun& run);
+void writeCsv(const std::string& path, const std::vector<SceneRows>& scenes);
+
+/// The rows of a file that --json wrote. Throws Error, naming the file, for anything else.
+std::vector<RecordedRow> readBenchJson(const std::string& path);
+std::vector<RecordedRow> recordedRows(const std::vector<SceneRows>& scenes);
+
+/// Throws Error where the old file has none of the new rows.
+std::vector<RowComparison> compareRun(const std::string& oldPath, const std::vector<RecordedRow>& old,
+                                      const BenchRun& run);
+void printComparison(const std::string& oldPath, const std::vector<RowComparison>& rows);
+nlohmann::ordered_json comparisonJson(const std::string& oldPath, const std::vector<RowComparison>& rows);
+size_t countChanged(const std::vector<RowComparison>& rows, Change change);
+
+}  // namespace raylab

@@ -1,0 +1,96 @@
+#include "ui/cli/bench_run.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <sstream>
+
+#include "engine/render/camera.h"
+#include "engine/render/lighting.h"
+#include "engine/scene/import.h"
+
+namespace raylab {
+namespace {
+
+constexpr std::array<std::string_view, 4> kColumns = {"tracer", "layout", "triangle", "builder"};
+
+std::vector<std::string> splitAt(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+BenchLight parseLight(const std::string& text, const Scene& scene) {
+    if (text.empty()) return defaultBenchLight(scene);
+    std::vector<float> n;
+    for (const std::string& part : splitAt(text, ',')) {
+        float value = 0.0f;
+        const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (code == std::errc() && end == part.data() + part.size()) n.push_back(value);
+    }
+    if (n.size() != 5)
+        throw Error("--light takes x,y,z,width,depth (a horizontal rectangle around a point), not '" + text + "'");
+    return {{n[0], n[1], n[2]}, n[3], n[4]};
+}
+
+std::vector<RaySet> raysOf(Device& device, const Scene& scene, const BenchPlan& plan) {
+    BenchView view;
+    view.camera = chooseCamera(scene, plan.base.camera);
+    view.light = parseLight(plan.light, scene);
+    view.width = static_cast<uint32_t>(plan.base.width);
+    view.height = static_cast<uint32_t>(plan.base.height);
+    view.seed = static_cast<uint32_t>(plan.base.seed);
+    RayCaster caster(device, scene, plan.base);
+    std::vector<RaySet> sets = makeBenchRays(caster, scene, view);
+    if (!plan.kinds.empty())
+        std::erase_if(sets, [&](const RaySet& set) { return std::ranges::count(plan.kinds, set.kind.name) == 0; });
+    return sets;
+}
+
+}  // namespace
+
+std::vector<Variant> variantsOf(const RenderSettings& base, const std::vector<std::string>& vary) {
+    std::vector<Variant> result{{base, ""}};
+    for (const std::string& axis : vary) {
+        const size_t equals = axis.find('=');
+        if (equals == std::string::npos || equals + 1 == axis.size())
+            throw Error("--vary takes NAME=A,B,C, not '" + axis + "'");
+        const std::string name = axis.substr(0, equals);
+        const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), name);
+        std::vector<Variant> next;
+        for (const Variant& variant : result)
+            for (const std::string& value : splitAt(axis.substr(equals + 1), ',')) {
+                Variant grown = variant;
+                setSetting(setting, grown.settings, value);
+                if (std::ranges::count(kColumns, name) == 0)
+                    grown.text += (grown.text.empty() ? "" : " ") + name + "=" + value;
+                next.push_back(grown);
+            }
+        result = std::move(next);
+    }
+    return result;
+}
+
+Scene loadBenchScene(const std::string& name, bool materials) {
+    Scene scene = importScene(scenePath(name));
+    if (!materials) {
+        for (Material& material : scene.materials) material = Material{};
+        scene.textures.clear();
+        scene.lights.clear();
+    }
+    settleEnvironment(scene, {});
+    return scene;
+}
+
+SceneRows benchScene(Device& device, const std::string& name, const Scene& scene, const BenchPlan& plan) {
+    const std::vector<RaySet> sets = raysOf(device, scene, plan);
+    std::vector<std::unique_ptr<BenchSubject>> subjects;
+    for (const Variant& variant : plan.variants)
+        subjects.push_back(makeDeviceSubject(device, scene, variant.settings, variant.text));
+    if (plan.peers)
+        for (std::unique_ptr<BenchSubject>& peer : makePeerSubjects(scene)) subjects.push_back(std::move(peer));
+    return {name, runRayBench(subjects, sets, plan.repeats)};
+}
+
+}  // namespace raylab
