@@ -30,6 +30,11 @@ missing_lines() {
 
 # The mirror from which this machine already takes bookworm, as "URI KEYRING" (KEYRING may be empty).
 bookworm_mirror() {
+  local files=() file
+  for file in /etc/apt/sources.list.d/*.sources /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
+    if [ -f "$file" ]; then files+=("$file"); fi  # awk gives up at a file that is not there
+  done
+  if [ "${#files[@]}" = 0 ]; then return; fi
   awk '
     function flush() { if (uris != "" && suites ~ /(^| )bookworm( |$)/) { split(uris, u, " "); print u[1], key; found = 1; exit } uris = ""; suites = ""; key = "" }
     FILENAME ~ /\.sources$/ {
@@ -45,7 +50,7 @@ bookworm_mirror() {
       if ($(i + 1) == "bookworm") { print $i, key; found = 1; exit }
     }
     END { if (!found) flush() }
-  ' /etc/apt/sources.list.d/*.sources /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | head -n 1
+  ' "${files[@]}" | head -n 1
 }
 
 lines=$(missing_lines)
