@@ -1,7 +1,6 @@
 #include "engine/measure/image_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -15,41 +14,14 @@ namespace {
 constexpr double kHeatLowestLog10 = -4.0;
 constexpr double kHeatHighestLog10 = 2.0;
 
-using Rgb = std::array<float, 3>;
-
-/// sRGB-encoded, evenly spaced: CIE lightness 0, 20, 39, 57, 78 and 99.
-constexpr std::array<Rgb, 6> kHeatRamp = {{{0.000f, 0.000f, 0.000f},
-                                           {0.275f, 0.059f, 0.471f},
-                                           {0.647f, 0.157f, 0.412f},
-                                           {0.902f, 0.373f, 0.176f},
-                                           {0.980f, 0.706f, 0.196f},
-                                           {1.000f, 1.000f, 0.863f}}};
-constexpr Rgb kHeatNonFinite = {0.0f, 1.0f, 1.0f};
-
-int colorChannels(const Bitmap& bitmap) { return bitmap.channels >= 3 ? 3 : 1; }
-
-std::string describe(const Bitmap& bitmap) {
-    return std::to_string(bitmap.width) + " x " + std::to_string(bitmap.height) +
-           (colorChannels(bitmap) == 3 ? " (colour)" : " (grey)");
-}
-
-void requireSameShape(const Bitmap& image, const Bitmap& reference) {
-    const bool same = image.width == reference.width && image.height == reference.height &&
-                      colorChannels(image) == colorChannels(reference);
-    if (!same)
-        throw Error("the images cannot be compared: " + describe(image) + " pixels against " + describe(reference) +
-                    "; give two of the same size");
-}
-
-/// Calls visit(x, y, a, b) with the pixel's channels in both images.
+/// Calls visit(x, y, a, b) with the channels of each pixel that counts, in both images.
 template <typename Visit>
-void forEachPixel(const Bitmap& image, const Bitmap& reference, const Visit& visit) {
+void forEachPixel(const Bitmap& image, const Bitmap& reference, std::span<const uint8_t> mask, const Visit& visit) {
+    requireMaskFits(mask, image);
+    size_t i = 0;
     for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) visit(x, y, image.at(x, y), reference.at(x, y));
-}
-
-bool allFinite(const float* pixel, int channels) {
-    return std::all_of(pixel, pixel + channels, [](float value) { return std::isfinite(value); });
+        for (int x = 0; x < image.width; ++x, ++i)
+            if (mask.empty() || mask[i] != 0) visit(x, y, image.at(x, y), reference.at(x, y));
 }
 
 double relativeSquare(double value, double reference) {
@@ -58,18 +30,6 @@ double relativeSquare(double value, double reference) {
 }
 
 double displayEncoded(float value) { return linearToSrgb(std::clamp(value, 0.0f, 1.0f)); }
-
-Rgb heatColor(double relativeSquaredError) {
-    const double range = kHeatHighestLog10 - kHeatLowestLog10;
-    const double scaled = (std::log10(relativeSquaredError) - kHeatLowestLog10) / range;  // -infinity for no error
-    const double position = std::clamp(scaled, 0.0, 1.0) * (kHeatRamp.size() - 1);
-    const size_t segment = std::min(static_cast<size_t>(position), kHeatRamp.size() - 2);
-    const float t = static_cast<float>(position - static_cast<double>(segment));
-    Rgb color{};
-    for (size_t c = 0; c < 3; ++c)
-        color[c] = srgbToLinear(std::lerp(kHeatRamp[segment][c], kHeatRamp[segment + 1][c], t));
-    return color;
-}
 
 /// The z that a standard normal variable exceeds in size with probability `significance`, by bisection.
 double criticalZ(double significance) {
@@ -90,13 +50,13 @@ bool passes(double a, double b, double varianceA, double varianceB, double thres
 
 }  // namespace
 
-ImageError compareImages(const Bitmap& image, const Bitmap& reference) {
+ImageError compareImages(const Bitmap& image, const Bitmap& reference, std::span<const uint8_t> mask) {
     requireSameShape(image, reference);
     const int channels = colorChannels(image);
     ImageError error;
     double squares = 0.0, relativeSquares = 0.0, displaySquares = 0.0;
-    forEachPixel(image, reference, [&](int, int, const float* a, const float* b) {
-        if (!allFinite(a, channels) || !allFinite(b, channels)) {
+    forEachPixel(image, reference, mask, [&](int, int, const float* a, const float* b) {
+        if (!isFinite(a, channels) || !isFinite(b, channels)) {
             ++error.nonFinite;
             return;
         }
@@ -120,35 +80,40 @@ ImageError compareImages(const Bitmap& image, const Bitmap& reference) {
     return error;
 }
 
-Bitmap errorHeatMap(const Bitmap& image, const Bitmap& reference) {
+Bitmap errorHeatMap(const Bitmap& image, const Bitmap& reference, std::span<const uint8_t> mask) {
     requireSameShape(image, reference);
     const int channels = colorChannels(image);
-    Bitmap heat(image.width, image.height, 3);
-    forEachPixel(image, reference, [&](int x, int y, const float* a, const float* b) {
+    Bitmap map(image.width, image.height, 1);
+    forEachPixel(image, reference, mask, [&](int x, int y, const float* a, const float* b) {
         double sum = 0.0;
         for (int c = 0; c < channels; ++c) sum += relativeSquare(a[c], b[c]);
-        const bool finite = allFinite(a, channels) && allFinite(b, channels);
-        std::ranges::copy(finite ? heatColor(sum / channels) : kHeatNonFinite, heat.at(x, y));
+        const bool finite = isFinite(a, channels) && isFinite(b, channels);
+        // -infinity for no error, which is black
+        *map.at(x, y) =
+            finite ? static_cast<float>(std::log10(sum / channels)) : std::numeric_limits<float>::quiet_NaN();
     });
-    return heat;
+    return heatPicture(map, kHeatLowestLog10, kHeatHighestLog10, mask);
 }
 
 ZTest zTest(const Bitmap& image, const Bitmap& varianceOfMean, const Bitmap& reference,
-            const Bitmap& referenceVarianceOfMean, double significance) {
+            const Bitmap& referenceVarianceOfMean, double significance, std::span<const uint8_t> mask) {
     requireSameShape(image, reference);
     requireSameShape(image, varianceOfMean);
     requireSameShape(image, referenceVarianceOfMean);
+    requireMaskFits(mask, image);
     if (!(significance > 0.0 && significance < 1.0))
         throw Error("a significance of " + std::to_string(significance) + " is no probability; give one such as 0.01");
     const int channels = colorChannels(image);
     ZTest test;
-    test.pixels = image.pixelCount();
-    if (test.pixels == 0) throw Error("the images are empty; there is nothing to test");
+    test.significance = significance;
+    const auto leftOut = std::ranges::count(mask, uint8_t{0});
+    test.pixels = image.pixelCount() - static_cast<size_t>(leftOut);
+    if (test.pixels == 0) throw Error("no pixel of the images counts; there is nothing to test");
     const double tests = static_cast<double>(test.pixels) * channels;
     test.threshold = criticalZ(-std::expm1(std::log1p(-significance) / tests));
 
     size_t passing = 0;
-    forEachPixel(image, reference, [&](int x, int y, const float* a, const float* b) {
+    forEachPixel(image, reference, mask, [&](int x, int y, const float* a, const float* b) {
         const float* varianceA = varianceOfMean.at(x, y);
         const float* varianceB = referenceVarianceOfMean.at(x, y);
         bool all = true;
@@ -156,6 +121,7 @@ ZTest zTest(const Bitmap& image, const Bitmap& varianceOfMean, const Bitmap& ref
         passing += all;
     });
     test.passFraction = static_cast<double>(passing) / static_cast<double>(test.pixels);
+    test.passed = passing == test.pixels;
     return test;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
-#include "engine/image/bitmap.h"
+#include "engine/measure/image_pair.h"
 
 namespace raylab {
 
@@ -10,7 +12,7 @@ namespace raylab {
 /// turns into an absolute error.
 constexpr double kRelMseEpsilon = 1e-2;
 
-/// Means over the colour channels of all pixels that are finite in both images; NaN where there is none.
+/// Means over the colour channels of all pixels that count and are finite in both images; NaN where there is none.
 struct ImageError {
     double mse = 0.0;   ///< mean of (a-b)^2, linear
     double rmse = 0.0;  ///< sqrt(mse)
@@ -22,24 +24,25 @@ struct ImageError {
     double psnr = 0.0;
     double maxAbs = 0.0;   ///< largest |a-b|, linear
     size_t pixels = 0;     ///< compared
-    size_t nonFinite = 0;  ///< pixels left out: a colour channel of either image is infinite or NaN
+    size_t nonFinite = 0;  ///< pixels that count and yet are left out: a channel of either image is infinite or NaN
 };
 
-/// Compares RGB (alpha is left out), or the one channel of grey images. Throws Error where sizes differ, or one is
-/// grey.
-ImageError compareImages(const Bitmap& image, const Bitmap& reference);
+/// Compares RGB (alpha is left out), or the one channel of grey images. Throws Error where sizes differ, also the
+/// mask's, or one is grey.
+ImageError compareImages(const Bitmap& image, const Bitmap& reference, std::span<const uint8_t> mask = {});
 
-/// The squared relative error of each pixel (mean over its channels, as in relMse) as a linear RGB picture for
-/// writePng. Logarithmic scale from 1e-4 and less (black) over violet, red and orange to 1e2 and more (white),
-/// lightness growing evenly; pixels that are not finite in either image are cyan, which the scale lacks. Throws as
-/// compareImages does.
-Bitmap errorHeatMap(const Bitmap& image, const Bitmap& reference);
+/// The squared relative error of each pixel (mean over its channels, as in relMse) as a heatPicture() on a logarithmic
+/// scale from 1e-4 (black) to 1e2 (white); pixels that are not finite in either image are cyan. Throws as compareImages
+/// does.
+Bitmap errorHeatMap(const Bitmap& image, const Bitmap& reference, std::span<const uint8_t> mask = {});
 
 /// What the Z-test of two noisy images found.
 struct ZTest {
     double passFraction = 0.0;  ///< of pixels in which each channel passes
     size_t pixels = 0;          ///< tested
     double threshold = 0.0;     ///< largest |z| that passes, in standard errors
+    double significance = 0.0;  ///< that was asked for
+    bool passed = false;        ///< no pixel fails: "equal means" is not rejected
 };
 
 /// Two-sided Z-test in each pixel and colour channel of "both estimators have the same mean": Subr and Arvo,
@@ -49,8 +52,8 @@ struct ZTest {
 /// correction (1967) makes it 1 - (1-significance)^(1/n) for each of the n tests. Without variance only equal values
 /// pass. A value that is not finite or a negative variance fails; where a variance was estimated so roughly that it is
 /// negative (Mitsuba's reference files), raise it before (Mitsuba: to 1e-4 a sample). Throws Error where the four
-/// differ in size or channels, or are empty.
+/// or the mask differ in size or channels, or no pixel counts.
 ZTest zTest(const Bitmap& image, const Bitmap& varianceOfMean, const Bitmap& reference,
-            const Bitmap& referenceVarianceOfMean, double significance = 0.01);
+            const Bitmap& referenceVarianceOfMean, double significance = 0.01, std::span<const uint8_t> mask = {});
 
 }  // namespace raylab

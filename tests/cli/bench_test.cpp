@@ -1,57 +1,16 @@
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <string>
+
+#include "tests/cli/program.h"
 
 namespace raylab {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 const std::string kFewRays = " --width 16 --height 16 --repeats 2";
 
-/// Runs raylab in a folder of its own, with a configuration folder of its own.
-class Bench : public testing::Test {
-protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "raylab-bench-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    /// Returns the exit code; what was printed is in `out` and `err` of the folder.
-    int run(const std::string& arguments) const {
-        const std::string folder = "'" + folder_.string() + "'";
-        const int status = std::system(("cd " + folder + " && XDG_CONFIG_HOME=" + folder +
-                                        " '" RAYLAB_BINARY_DIR "/raylab' " + arguments + " > out 2> err")
-                                           .c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    std::string text(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-    Json json(const std::string& name) const { return Json::parse(text(name)); }
-    void write(const std::string& name, const std::string& content) const {
-        std::ofstream(folder_ / name, std::ios::binary) << content;
-    }
-    void expectRefused(const std::string& arguments, const std::string& what) const {
-        EXPECT_EQ(run(arguments), 2) << arguments;
-        EXPECT_NE(text("err").find(what), std::string::npos) << text("err");
-    }
-
-    fs::path folder_;
-};
+using Bench = ProgramTest;
 
 /// The file with every rate of some rows multiplied, and intervals so wide that a busy machine does not leave them.
 std::string scaled(Json run, double factor, const std::string& onlyTracer = "") {
@@ -70,8 +29,9 @@ bool hasTracer(const Json& run, const std::string& tracer) {
 }
 
 TEST_F(Bench, RowsSayWhatOthersRelyOn) {
-    ASSERT_EQ(run("bench cornell --rays primary,shadow --vary layout=bvh2,bvh4b --json a.json --csv a.csv" + kFewRays),
-              0)
+    ASSERT_EQ(
+        runProgram("bench cornell --rays primary,shadow --vary layout=bvh2,bvh4b --json a.json --csv a.csv" + kFewRays),
+        0)
         << text("err");
     const Json result = json("a.json");
     EXPECT_EQ(result["schema"], "raylab.bench/1");
@@ -103,41 +63,41 @@ TEST_F(Bench, RowsSayWhatOthersRelyOn) {
 
 TEST_F(Bench, CompareFindsWhatBecameSlower) {
     const std::string bench = "bench cornell --rays primary" + kFewRays;
-    ASSERT_EQ(run(bench + " --json a.json"), 0) << text("err");
+    ASSERT_EQ(runProgram(bench + " --json a.json"), 0) << text("err");
     const Json before = json("a.json");
-    write("faster.json", scaled(before, 1e-4, "software"));
-    EXPECT_EQ(run(bench + " --compare faster.json --json new.json"), 0) << text("err");
+    writeText("faster.json", scaled(before, 1e-4, "software"));
+    EXPECT_EQ(runProgram(bench + " --compare faster.json --json new.json"), 0) << text("err");
     EXPECT_EQ(json("new.json")["compare"]["faster"], 1);
-    write("slower.json", scaled(before, 1e4, "software"));
-    EXPECT_EQ(run(bench + " --compare slower.json"), 1) << text("err");
+    writeText("slower.json", scaled(before, 1e4, "software"));
+    EXPECT_EQ(runProgram(bench + " --compare slower.json"), 1) << text("err");
     EXPECT_NE(text("out").find("SLOWER"), std::string::npos) << text("out");
-    write("machine.json", scaled(before, 1e4));
-    EXPECT_EQ(run(bench + " --compare machine.json"), hasTracer(before, "embree1") ? 0 : 1) << text("out");
-    EXPECT_EQ(run(bench + " --compare machine.json --no-peers"), 1) << text("out");
+    writeText("machine.json", scaled(before, 1e4));
+    EXPECT_EQ(runProgram(bench + " --compare machine.json"), hasTracer(before, "embree1") ? 0 : 1) << text("out");
+    EXPECT_EQ(runProgram(bench + " --compare machine.json --no-peers"), 1) << text("out");
 }
 
 TEST_F(Bench, OldFilesThatAreNoneAreRefused) {
     const std::string bench = "bench cornell --rays primary --no-peers" + kFewRays + " --compare ";
-    write("torn.json", "{\"schema\": \"raylab.bench/1\", \"rows\": [");
-    write("other.json", "{\"schema\": \"raylab.render/1\"}");
-    write("rows.json", "{\"schema\": \"raylab.bench/1\", \"rows\": [{\"scene\": 3}]}");
-    write("none.json", "{\"schema\": \"raylab.bench/1\", \"rows\": []}");
+    writeText("torn.json", "{\"schema\": \"raylab.bench/1\", \"rows\": [");
+    writeText("other.json", "{\"schema\": \"raylab.render/1\"}");
+    writeText("rows.json", "{\"schema\": \"raylab.bench/1\", \"rows\": [{\"scene\": 3}]}");
+    writeText("none.json", "{\"schema\": \"raylab.bench/1\", \"rows\": []}");
     for (const char* name : {"torn.json", "other.json", "rows.json", "none.json", "missing.json"})
-        expectRefused(bench + name, name);
+        expectProgramRefuses(bench + name, name);
 }
 
 TEST_F(Bench, WrongUsageIsRefused) {
-    expectRefused("bench", "name a scene");
-    expectRefused("bench cornell --scaling", "--scaling");
-    expectRefused("bench cornell --tune --vary layout=bvh2", "--tune");
-    expectRefused("bench cornell --vary layout", "NAME=A,B,C");
-    expectRefused("bench cornell --rays sideways", "--rays");
-    expectRefused("bench cornell --light 1,2", "--light");
-    expectRefused("bench nowhere.glb", "nowhere.glb");
+    expectProgramRefuses("bench", "name a scene");
+    expectProgramRefuses("bench cornell --scaling", "--scaling");
+    expectProgramRefuses("bench cornell --tune --vary layout=bvh2", "--tune");
+    expectProgramRefuses("bench cornell --vary layout", "NAME=A,B,C");
+    expectProgramRefuses("bench cornell --rays sideways", "--rays");
+    expectProgramRefuses("bench cornell --light 1,2", "--light");
+    expectProgramRefuses("bench nowhere.glb", "nowhere.glb");
 }
 
 TEST_F(Bench, TuneRecordsWhatAutoTakes) {
-    ASSERT_EQ(run("bench cornell --tune --json tune.json" + kFewRays), 0) << text("err");
+    ASSERT_EQ(runProgram("bench cornell --tune --json tune.json" + kFewRays), 0) << text("err");
     const Json tune = json("tune.json")["tune"];
     EXPECT_GE(tune["ranking"].size(), 10u);
     double last = 1e300;
@@ -152,20 +112,20 @@ TEST_F(Bench, TuneRecordsWhatAutoTakes) {
     Json recorded = json("raylab/devices.json");
     EXPECT_EQ(recorded["devices"].at(0)["layout"], best);
     recorded["devices"].at(0)["layout"] = "bvh8q";
-    write("raylab/devices.json", recorded.dump());
+    writeText("raylab/devices.json", recorded.dump());
     const std::string render = "render cornell -o a.png --width 16 --height 16 --spp 1 --json a.json";
-    ASSERT_EQ(run(render + " --layout auto"), 0) << text("err");
+    ASSERT_EQ(runProgram(render + " --layout auto"), 0) << text("err");
     EXPECT_EQ(json("a.json")["settings"]["layout"], "bvh8q");
-    ASSERT_EQ(run(render + " --layout bvh2"), 0) << text("err");
+    ASSERT_EQ(runProgram(render + " --layout bvh2"), 0) << text("err");
     EXPECT_EQ(json("a.json")["settings"]["layout"], "bvh2");
-    write("raylab/devices.json", "{");
-    ASSERT_EQ(run(render), 0) << text("err");
+    writeText("raylab/devices.json", "{");
+    ASSERT_EQ(runProgram(render), 0) << text("err");
     EXPECT_EQ(json("a.json")["settings"]["layout"], "bvh4b");
     EXPECT_NE(text("err").find("devices.json"), std::string::npos);
 }
 
 TEST_F(Bench, ScalingWritesItsPointsAndAScript) {
-    ASSERT_EQ(run("bench --scaling --largest 10000 --csv cost.csv --json a.json" + kFewRays), 0) << text("err");
+    ASSERT_EQ(runProgram("bench --scaling --largest 10000 --csv cost.csv --json a.json" + kFewRays), 0) << text("err");
     const Json scaling = json("a.json")["scaling"];
     EXPECT_EQ(scaling["points"].size(), 4u);  // two sizes, two kinds of rays
     for (const Json& point : scaling["points"]) EXPECT_GT(point["nsPerRay"], 0.0);
@@ -176,9 +136,10 @@ TEST_F(Bench, ScalingWritesItsPointsAndAScript) {
 }
 
 TEST_F(Bench, InfoMeasuresTreesWhereItIsAsked) {
-    ASSERT_EQ(run("info cornell --json a.json"), 0) << text("err");
+    ASSERT_EQ(runProgram("info cornell --json a.json"), 0) << text("err");
     EXPECT_TRUE(json("a.json")["bvh"]["epo"].is_null());
-    ASSERT_EQ(run("info cornell --bvh --builder spatial --layout bvh8q --leaf-size 2 --json a.json"), 0) << text("err");
+    ASSERT_EQ(runProgram("info cornell --bvh --builder spatial --layout bvh8q --leaf-size 2 --json a.json"), 0)
+        << text("err");
     const Json bvh = json("a.json")["bvh"];
     EXPECT_EQ(bvh["builder"], "spatial");
     EXPECT_EQ(bvh["layout"], "bvh8q");
@@ -187,7 +148,7 @@ TEST_F(Bench, InfoMeasuresTreesWhereItIsAsked) {
     EXPECT_LE(bvh["leafSizeHistogram"].size(), 3u);
     EXPECT_GT(bvh["memoryBytes"]["triangles"], 0);
     EXPECT_NE(text("out").find("leaves by depth"), std::string::npos) << text("out");
-    expectRefused("info cornell --bvh --builder best", "--builder");
+    expectProgramRefuses("info cornell --bvh --builder best", "--builder");
 }
 
 }  // namespace

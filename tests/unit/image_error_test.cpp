@@ -133,6 +133,45 @@ TEST(ImageErrorHeatMap, LightnessGrowsEvenlyWithTheLogarithm) {
     }
 }
 
+TEST(ImageErrorMask, OnlyPixelsThatCountAreMeasured) {
+    Bitmap image = constant(3, 1, 3, 1.0f), reference = constant(3, 1, 3, 0.5f);
+    image.at(0, 0)[0] = 9.0f;
+    reference.at(2, 0)[1] = kInfinity;
+    const PixelMask last = {0, 1, 0}, lastTwo = {0, 7, 1}, none = {0, 0, 0};
+    EXPECT_EQ(compareImages(image, reference, last).mse, 0.25);
+    EXPECT_EQ(compareImages(image, reference, last).nonFinite, 0u);
+    EXPECT_EQ(compareImages(image, reference, last).maxAbs, 0.5);
+    EXPECT_EQ(compareImages(image, reference, lastTwo).pixels, 1u);
+    EXPECT_EQ(compareImages(image, reference, lastTwo).nonFinite, 1u);
+    EXPECT_TRUE(std::isnan(compareImages(image, reference, none).mse));
+    EXPECT_NE(errorOf([&] { compareImages(image, reference, PixelMask{1, 1}); }), "");
+    EXPECT_NE(errorOf([&] { errorHeatMap(image, reference, PixelMask{1, 1}); }), "");
+}
+
+TEST(ImageErrorMask, HeatMapIsGreyWhereNothingCounts) {
+    const Bitmap image = constant(2, 1, 3, 1.0f);
+    const Bitmap heat = errorHeatMap(image, constant(2, 1, 3, 0.5f), PixelMask{0, 1});
+    const float* grey = heat.at(0, 0);
+    EXPECT_TRUE(grey[0] == grey[1] && grey[1] == grey[2] && grey[0] > 0.0f) << "black and white are on the scale";
+    EXPECT_GT(heat.at(1, 0)[0], heat.at(1, 0)[2]) << "a relative square of 0.96 lies between red and orange";
+}
+
+TEST(ImageErrorMask, ZTestCorrectsForThePixelsThatCount) {
+    const Bitmap one = constant(2, 2, 1, 1.0f);
+    Bitmap image = one;
+    *image.at(1, 0) = 1e6f;
+    const ZTest masked = zTest(image, one, one, one, 0.01, PixelMask{1, 0, 0, 0});
+    EXPECT_NEAR(masked.threshold, 2.575829303548901, 1e-12);  // of one test, as published
+    EXPECT_EQ(masked.pixels, 1u);
+    EXPECT_EQ(masked.significance, 0.01);
+    EXPECT_TRUE(masked.passed);
+    const ZTest all = zTest(image, one, one, one);
+    EXPECT_EQ(all.passFraction, 0.75);
+    EXPECT_FALSE(all.passed);
+    EXPECT_NE(errorOf([&] { zTest(image, one, one, one, 0.01, PixelMask{0, 0, 0, 0}); }), "");
+    EXPECT_NE(errorOf([&] { zTest(image, one, one, one, 0.01, PixelMask{1}); }), "");
+}
+
 TEST(ImageZTest, PublishedThresholds) {
     const Bitmap one = constant(1, 1, 1, 1.0f), three = constant(1, 1, 3, 1.0f), many = constant(48, 48, 3, 1.0f);
     EXPECT_NEAR(zTest(one, one, one, one, 0.05).threshold, 1.959963984540054, 1e-12);

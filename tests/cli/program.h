@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace raylab {
+
+using Json = nlohmann::json;
+
+/// Runs raylab in a folder of its own, with a configuration folder of its own.
+class ProgramTest : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (std::filesystem::temp_directory_path() / "raylab-test-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    /// Returns the exit code; what was printed is in `out` and `err` of the folder.
+    int runProgram(const std::string& arguments) const {
+        const std::string folder = "'" + folder_.string() + "'";
+        const int status = std::system(("cd " + folder + " && XDG_CONFIG_HOME=" + folder +
+                                        " '" RAYLAB_BINARY_DIR "/raylab' " + arguments + " > out 2> err")
+                                           .c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string text(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    Json json(const std::string& name) const { return Json::parse(text(name)); }
+    void writeText(const std::string& name, const std::string& content) const {
+        std::ofstream(folder_ / name, std::ios::binary) << content;
+    }
+    /// With exit code 2 and `what` among the message.
+    void expectProgramRefuses(const std::string& arguments, const std::string& what) const {
+        EXPECT_EQ(runProgram(arguments), 2) << arguments;
+        EXPECT_NE(text("err").find(what), std::string::npos) << text("err");
+    }
+
+    std::filesystem::path folder_;
+};
+
+}  // namespace raylab
