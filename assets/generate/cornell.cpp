@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "assets/generate/scene_tools.h"
 #include "assets/generate/spectra.h"
 
 namespace raylab::assets {
@@ -63,28 +64,28 @@ Geometry quad(const Corners& corners) {
     return g;
 }
 
-uint32_t addLambertian(GltfWriter& gltf, const std::string& name, glm::vec3 colour, glm::vec3 emission = {}) {
-    MaterialSpec spec{.name = name};
-    spec.baseColor = colour;
-    spec.emission = emission;
-    spec.specular = 0.0f;
-    return gltf.addMaterial(spec);
+uint32_t addLambertian(Scene& scene, const std::string& name, glm::vec3 colour, glm::vec3 emission = {}) {
+    Material material = plainMaterial(name, colour, 1.0f);
+    material.emission = emission;
+    material.specular = 0.0f;
+    return addMaterial(scene, material);
 }
 
 }  // namespace
 
-GltfWriter makeCornellBox() {
-    GltfWriter gltf("Cornell box");
+Scene makeCornellBox() {
+    Scene scene;
+    scene.name = "Cornell box";
     const auto colourOf = [](std::span<const float> values) {
         return reflectanceToRgb({400.0f, 8.0f, values}, kLight);
     };
-    const uint32_t white = addLambertian(gltf, "white", colourOf(kWhiteValues));
-    const uint32_t red = addLambertian(gltf, "red", colourOf(kRedValues));
-    const uint32_t green = addLambertian(gltf, "green", colourOf(kGreenValues));
-    const uint32_t light = addLambertian(gltf, "light", glm::vec3(kLightReflectance), radianceToRgb(kLight));
+    const uint32_t white = addLambertian(scene, "white", colourOf(kWhiteValues));
+    const uint32_t red = addLambertian(scene, "red", colourOf(kRedValues));
+    const uint32_t green = addLambertian(scene, "green", colourOf(kGreenValues));
+    const uint32_t light = addLambertian(scene, "light", glm::vec3(kLightReflectance), radianceToRgb(kLight));
 
-    const auto add = [&gltf](const char* name, const Geometry& g, uint32_t material) {
-        gltf.addInstance(name, gltf.addMesh(name, g, material));
+    const auto add = [&scene](const char* name, const Geometry& g, uint32_t material) {
+        addInstance(scene, name, addMesh(scene, name, g, material));
     };
     add("floor", quad({{{552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f}}}), white);
     add("light", quad(kLightCorners), light);
@@ -97,9 +98,8 @@ GltfWriter makeCornellBox() {
 
     // Focal length 0.035 behind a film of 0.025 x 0.025.
     const float fovYRadians = 2.0f * std::atan(0.5f * 0.025f / 0.035f);
-    gltf.addCamera("cornell", {278.0f, 273.0f, -800.0f}, {278.0f, 273.0f, 279.6f}, fovYRadians, 1.0f);
-    gltf.setExtras({{"raylab", {{"unit", "millimetre"}}}});
-    return gltf;
+    addCamera(scene, "cornell", {278.0f, 273.0f, -800.0f}, {278.0f, 273.0f, 279.6f}, fovYRadians);
+    return scene;
 }
 
 }  // namespace raylab::assets

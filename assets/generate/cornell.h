@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assets/generate/gltf_writer.h"
+#include "engine/scene/scene.h"
 
 namespace raylab::assets {
 
@@ -9,6 +9,6 @@ namespace raylab::assets {
 /// wall is on the left. Two departures: the ceiling is cut out where the light is, since the published rectangles lie
 /// in one plane; and spectra become linear sRGB as told in spectra.h. The light's radiance keeps the published numbers
 /// (0, 8, 15.6, 18.4 at 400, 500, 600, 700 nm; unit unspecified there, so only ratios mean something).
-GltfWriter makeCornellBox();
+Scene makeCornellBox();
 
 }  // namespace raylab::assets

@@ -16,7 +16,6 @@ namespace {
 constexpr glm::vec2 kPool(1.95f, 5.5f);
 constexpr glm::vec3 kPoolCentre(0.0f, 0.0f, 0.7f);
 constexpr glm::vec3 kStatueFoot(0.0f, 1.5f, -3.2f);
-constexpr float kAspect = 16.0f / 9.0f;
 
 /// Assimp finds a camera's node by name: no other node may bear a camera's name, so the statue's is "victory".
 void addPool(Builder& b, const Geometry& statue) {
@@ -117,24 +116,25 @@ void addStillLife(Builder& b) {
 
 }  // namespace
 
-GltfWriter makeCourtyard() {
-    GltfWriter gltf("Courtyard");
-    gltf.setExtras(
-        {{"raylab", {{"sun", {{"elevation", 38.0}, {"azimuth", 104.0}, {"turbidity", 2.5}, {"scale", 1.0}}}}}});
+Scene makeCourtyard() {
+    Scene scene;
+    scene.name = "Courtyard";
+    scene.sky = SkyDescription{
+        .sunElevationRadians = glm::radians(38.0f), .sunAzimuthRadians = glm::radians(104.0f), .turbidity = 2.5f};
     Palette palette;
     Geometry statue;
-    tbb::parallel_invoke([&] { statue = makeStatue(); }, [&] { palette = addPalette(gltf); });
-    Builder builder(gltf, palette);
-    gltf.addCamera("courtyard", {2.7f, 1.45f, 9.05f}, {3.1f, 1.82f, 0.0f}, glm::radians(39.0f), kAspect);
-    gltf.addCamera("statue", {1.3f, 2.3f, 2.3f}, {0.05f, 3.55f, -3.2f}, glm::radians(29.0f), kAspect);
-    gltf.addCamera("arcade", {-7.9f, 1.9f, 9.3f}, {-7.2f, 1.8f, 0.0f}, glm::radians(48.0f), kAspect);
+    tbb::parallel_invoke([&] { statue = makeStatue(); }, [&] { palette = addPalette(scene); });
+    Builder builder(scene, palette);
+    addCamera(scene, "courtyard", {2.7f, 1.45f, 9.05f}, {3.1f, 1.82f, 0.0f}, glm::radians(39.0f));
+    addCamera(scene, "statue", {1.3f, 2.3f, 2.3f}, {0.05f, 3.55f, -3.2f}, glm::radians(29.0f));
+    addCamera(scene, "arcade", {-7.9f, 1.9f, 9.3f}, {-7.2f, 1.8f, 0.0f}, glm::radians(48.0f));
     const BuildingMeshes shared = addBuilding(builder);
     addTower(builder, shared.archWall, shared.archStones, shared.pier);
     addPool(builder, statue);
     addPlants(builder);
     addLandscape(builder);
     addStillLife(builder);
-    return gltf;
+    return scene;
 }
 
 }  // namespace raylab::assets

@@ -4,6 +4,8 @@
 
 #include "assets/generate/cornell.h"
 #include "assets/generate/courtyard.h"
+#include "assets/generate/quadrics.h"
+#include "engine/scene/save_gltf.h"
 
 /// raylab-make-assets FOLDER: writes the project's own scenes there. The same bytes on every run.
 int main(int argc, char** argv) {
@@ -14,8 +16,9 @@ int main(int argc, char** argv) {
     try {
         const std::filesystem::path folder = argv[1];
         std::filesystem::create_directories(folder);
-        raylab::assets::makeCornellBox().write(folder / "cornell.glb");
-        raylab::assets::makeCourtyard().write(folder / "courtyard.glb");
+        raylab::saveGltf(raylab::assets::makeCornellBox(), folder / "cornell.glb");
+        raylab::saveGltf(raylab::assets::makeCourtyard(), folder / "courtyard.glb");
+        raylab::saveGltf(raylab::assets::makeQuadrics(), folder / "quadrics.glb");
     } catch (const std::exception& error) {
         std::fprintf(stderr, "raylab-make-assets: %s\n", error.what());
         return 1;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "assets/generate/gltf_writer.h"
+#include "assets/generate/scene_tools.h"
 
 namespace raylab::assets {
 
-/// The courtyard's materials: ids for GltfWriter::addMesh().
+/// The courtyard's materials: indices for addMesh().
 struct Palette {
     uint32_t paving = 0;
     uint32_t plaster = 0;
@@ -31,6 +31,6 @@ struct Palette {
 };
 
 /// Paints the textures (in parallel) and adds them with their materials.
-Palette addPalette(GltfWriter& gltf);
+Palette addPalette(Scene& scene);
 
 }  // namespace raylab::assets

@@ -1,46 +1,26 @@
 #include "assets/generate/surface_maps.h"
 
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#include <stb_image_write.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
-
-#include <stdexcept>
 
 namespace raylab::assets {
 namespace {
 
-uint8_t toByte(float value) { return static_cast<uint8_t>(glm::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
+uint32_t toByte(float value) { return static_cast<uint32_t>(glm::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
-void appendBytes(void* context, void* data, int sizeBytes) {
-    auto& png = *static_cast<std::vector<uint8_t>*>(context);
-    const auto* bytes = static_cast<const uint8_t*>(data);
-    png.insert(png.end(), bytes, bytes + sizeBytes);
-}
-
-std::vector<uint8_t> encodePng(const std::vector<uint8_t>& texels, uint32_t size, int channels) {
-    std::vector<uint8_t> png;
-    const int side = static_cast<int>(size);
-    if (stbi_write_png_to_func(appendBytes, &png, side, side, channels, texels.data(), side * channels) == 0) {
-        throw std::runtime_error("cannot encode a PNG: out of memory?");
-    }
-    return png;
-}
-
-/// `texel(x, y)` returns the channels as a glm vector.
-template <int channels, typename Texel>
-std::vector<uint8_t> encodeImage(uint32_t size, Texel&& texel) {
-    std::vector<uint8_t> texels(static_cast<size_t>(size) * size * channels);
+/// `texel(x, y)` returns red, green, blue and alpha.
+template <typename Texel>
+SurfaceMap mapOf(uint32_t size, Texel&& texel) {
+    SurfaceMap map{.size = size, .texels = {}};
+    map.texels.reserve(static_cast<size_t>(size) * size);
     for (uint32_t y = 0; y < size; ++y) {
         for (uint32_t x = 0; x < size; ++x) {
-            const glm::vec<channels, float> value = texel(x, y);
-            for (int c = 0; c < channels; ++c) {
-                texels[(static_cast<size_t>(y) * size + x) * channels + static_cast<size_t>(c)] = toByte(value[c]);
-            }
+            const glm::vec4 value = texel(x, y);
+            map.texels.push_back(toByte(value.x) | toByte(value.y) << 8 | toByte(value.z) << 16 |
+                                 toByte(value.w) << 24);
         }
     }
-    return encodePng(texels, size, channels);
+    return map;
 }
 
 }  // namespace
@@ -64,23 +44,21 @@ SurfaceMaps paintSurface(const PaintConfig& config, const std::function<SurfaceP
     };
 
     SurfaceMaps maps;
-    const auto encodeColour = [&] {
-        if (config.alpha) {
-            maps.baseColor = encodeImage<4>(
-                size, [&](uint32_t x, uint32_t y) { return glm::vec4(at(x, y).colour, at(x, y).alpha); });
-        } else {
-            maps.baseColor = encodeImage<3>(size, [&](uint32_t x, uint32_t y) { return at(x, y).colour; });
-        }
+    const auto makeColour = [&] {
+        maps.baseColor = mapOf(size, [&](uint32_t x, uint32_t y) {
+            return glm::vec4(at(x, y).colour, config.alpha ? at(x, y).alpha : 1.0f);
+        });
     };
-    const auto encodeRoughness = [&] {
+    const auto makeRoughness = [&] {
         if (!config.roughness) return;
-        maps.metallicRoughness = encodeImage<3>(
-            size, [&](uint32_t x, uint32_t y) { return glm::vec3(1.0f, at(x, y).roughness, at(x, y).metallic); });
+        maps.metallicRoughness = mapOf(
+            size, [&](uint32_t x, uint32_t y) { return glm::vec4(1.0f, at(x, y).roughness, at(x, y).metallic, 1.0f); });
     };
-    const auto encodeNormals = [&] {
-        if (config.relief) maps.normal = encodeImage<3>(size, normalAt);
+    const auto makeNormals = [&] {
+        if (config.relief)
+            maps.normal = mapOf(size, [&](uint32_t x, uint32_t y) { return glm::vec4(normalAt(x, y), 1.0f); });
     };
-    tbb::parallel_invoke(encodeColour, encodeRoughness, encodeNormals);
+    tbb::parallel_invoke(makeColour, makeRoughness, makeNormals);
     return maps;
 }
 

@@ -16,12 +16,17 @@ struct SurfacePoint {
     float metallic = 0.0f;
 };
 
-/// PNG files as glTF wants them: colour with alpha (sRGB), occlusion-roughness-metallic (G, B), tangent-space normals
-/// (+Y up).
+/// A square image, R in the lowest byte; no texels: not made.
+struct SurfaceMap {
+    uint32_t size = 0;
+    std::vector<uint32_t> texels;
+};
+
+/// As glTF wants them: colour with alpha (sRGB), occlusion-roughness-metallic (G, B), tangent-space normals (+Y up).
 struct SurfaceMaps {
-    std::vector<uint8_t> baseColor;
-    std::vector<uint8_t> metallicRoughness;
-    std::vector<uint8_t> normal;
+    SurfaceMap baseColor;
+    SurfaceMap metallicRoughness;
+    SurfaceMap normal;
 };
 
 struct PaintConfig {
@@ -32,7 +37,7 @@ struct PaintConfig {
     bool roughness = true;  ///< make the metallic-roughness map
 };
 
-/// Evaluates `paint` at every texel centre (uv in [0, 1]^2, v downwards) and encodes the maps asked for. Heights wrap
+/// Evaluates `paint` at every texel centre (uv in [0, 1]^2, v downwards) and makes the maps asked for. Heights wrap
 /// round.
 SurfaceMaps paintSurface(const PaintConfig& config, const std::function<SurfacePoint(glm::vec2 uv)>& paint);
 

@@ -21,4 +21,8 @@ struct Image8 {
 /// damaged, cut short, absurd size) is nullopt, and `whyNot` says why in words that follow a file name.
 std::optional<Image8> decodeImage8(std::span<const std::byte> encoded, std::string& whyNot);
 
+/// A PNG file from which decodeImage8 reads the same texels; without an alpha channel where all are opaque.
+/// `texels` holds width * height values, R in the lowest byte.
+std::vector<std::byte> encodePng8(std::span<const uint32_t> texels, uint32_t width, uint32_t height);
+
 }  // namespace raylab

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/scene/quadric.h"
+
 namespace raylab {
 namespace {
 
@@ -16,10 +18,15 @@ constexpr float kDefaultFovY = 0.7853982f;  // 45 degrees
 Bounds merged(const Bounds& a, const Bounds& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
 
 Bounds instanceBounds(const Scene& scene, const Instance& instance) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
     Bounds bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
-    for (const glm::vec3& position : scene.meshes[instance.mesh].positions) {
+    for (const glm::vec3& position : mesh.positions) {
         const glm::vec3 world(instance.objectToWorld * glm::vec4(position, 1.0f));
         bounds = merged(bounds, {world, world});
+    }
+    for (const Quadric& quadric : mesh.quadrics) {
+        const Bounds box = quadricBounds(quadric, instance.objectToWorld);
+        if (box.lo.x <= box.hi.x) bounds = merged(bounds, box);
     }
     return bounds;
 }
@@ -35,7 +42,8 @@ Bounds sceneBounds(const Scene& scene) {
             bounds = merged(bounds, instanceBounds(scene, scene.instances[i]));
         return bounds;
     };
-    return tbb::parallel_reduce(Range(0, scene.instances.size()), nothing, ofRange, merged);
+    const Bounds bounds = tbb::parallel_reduce(Range(0, scene.instances.size()), nothing, ofRange, merged);
+    return bounds.lo.x <= bounds.hi.x ? bounds : Bounds{};
 }
 
 Camera defaultCamera(const Scene& scene) {
@@ -51,10 +59,17 @@ Camera defaultCamera(const Scene& scene) {
     return camera;
 }
 
-TriangleCount triangleCount(const Scene& scene) {
-    TriangleCount count;
+PrimitiveCount triangleCount(const Scene& scene) {
+    PrimitiveCount count;
     for (const Mesh& mesh : scene.meshes) count.stored += mesh.triangles.size();
     for (const Instance& instance : scene.instances) count.instanced += scene.meshes[instance.mesh].triangles.size();
+    return count;
+}
+
+PrimitiveCount quadricCount(const Scene& scene) {
+    PrimitiveCount count;
+    for (const Mesh& mesh : scene.meshes) count.stored += mesh.quadrics.size();
+    for (const Instance& instance : scene.instances) count.instanced += scene.meshes[instance.mesh].quadrics.size();
     return count;
 }
 

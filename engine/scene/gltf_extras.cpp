@@ -11,14 +11,6 @@
 namespace raylab {
 namespace {
 
-/// Other programs may store anything under `extras`, so only an object with an object `raylab` counts.
-std::optional<JsonView> raylabExtras(const JsonView& owner) {
-    if (!owner.has("extras") || !owner.json()["extras"].is_object()) return std::nullopt;
-    const JsonView extras = owner.object("extras");
-    if (!extras.has("raylab")) return std::nullopt;
-    return extras.object("raylab");
-}
-
 std::optional<JsonView> findExtras(const JsonView& root) {
     const JsonView scenes = root.array("scenes");
     if (scenes.size() > 0)
@@ -26,19 +18,19 @@ std::optional<JsonView> findExtras(const JsonView& root) {
     return raylabExtras(root);
 }
 
-float numberBetween(const JsonView& owner, const char* key, double low, double high, double fallback) {
+double numberBetween(const JsonView& owner, const char* key, double low, double high, double fallback) {
     const double value = owner.number(key, fallback);
     if (value < low || value > high)
         owner.fail(std::string("needs ") + key + " between " + std::to_string(low) + " and " + std::to_string(high));
-    return static_cast<float>(value);
+    return value;
 }
 
 SkyDescription readSky(const JsonView& sun) {
     SkyDescription sky;
-    sky.sunElevationRadians = glm::radians(numberBetween(sun, "elevation", -90.0, 90.0, 45.0));
-    sky.sunAzimuthRadians = glm::radians(numberBetween(sun, "azimuth", -360.0, 360.0, 0.0));
-    sky.turbidity = numberBetween(sun, "turbidity", 1.0, 10.0, 2.5);
-    sky.scale = numberBetween(sun, "scale", 0.0, 1e6, 1.0);
+    sky.sunElevationRadians = static_cast<float>(glm::radians(numberBetween(sun, "elevation", -90.0, 90.0, 45.0)));
+    sky.sunAzimuthRadians = static_cast<float>(glm::radians(numberBetween(sun, "azimuth", -360.0, 360.0, 0.0)));
+    sky.turbidity = static_cast<float>(numberBetween(sun, "turbidity", 1.0, 10.0, 2.5));
+    sky.scale = static_cast<float>(numberBetween(sun, "scale", 0.0, 1e6, 1.0));
     return sky;
 }
 
@@ -57,7 +49,7 @@ void scaleAndClean(Bitmap& radiance, float scale, std::vector<std::string>& warn
 
 void readEnvironment(const GltfDocument& document, const JsonView& extras, Scene& scene) {
     const auto file = resolveResource(document.path.parent_path(), extras.text("environment", ""));
-    const float scale = numberBetween(extras, "environmentScale", 0.0, 1e6, 1.0);
+    const auto scale = static_cast<float>(numberBetween(extras, "environmentScale", 0.0, 1e6, 1.0));
     try {
         Environment environment{.radiance = readImage(file)};
         scaleAndClean(environment.radiance, scale, scene.warnings);
@@ -68,6 +60,13 @@ void readEnvironment(const GltfDocument& document, const JsonView& extras, Scene
 }
 
 }  // namespace
+
+std::optional<JsonView> raylabExtras(const JsonView& owner) {
+    if (!owner.has("extras") || !owner.json()["extras"].is_object()) return std::nullopt;
+    const JsonView extras = owner.object("extras");
+    if (!extras.has("raylab")) return std::nullopt;
+    return extras.object("raylab");
+}
 
 void readGltfExtras(const GltfDocument& document, Scene& scene) {
     const std::optional<JsonView> extras = findExtras(document.root());

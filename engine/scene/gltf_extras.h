@@ -1,9 +1,14 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/scene/gltf_document.h"
 #include "engine/scene/scene.h"
 
 namespace raylab {
+
+/// `extras.raylab` of a part of the file. Other programs may store anything under `extras`: only an object counts.
+std::optional<JsonView> raylabExtras(const JsonView& owner);
 
 /// What glTF has no place for, from `extras.raylab` of the shown scene, or else of the whole file:
 ///

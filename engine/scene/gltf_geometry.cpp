@@ -34,11 +34,16 @@ public:
     }
 
     /// False where the primitive yields no triangles.
-    bool add(const JsonView& primitive, size_t uvSet);
+    bool add(const JsonView& primitive);
+    /// Accessor of the primitive's texture coordinates, if there is one that fits its positions.
+    std::optional<size_t> uvsOf(const JsonView& primitive, size_t uvSet);
     void finish(PlainGltf& result);
 
 private:
-    json attributesOf(const JsonView& primitive, size_t uvSet, size_t vertexCount);
+    json attributesOf(const JsonView& primitive, size_t vertexCount);
+    /// The accessor of an attribute that matches the positions; others are counted.
+    std::optional<size_t> matching(const JsonView& primitive, const std::string& name, size_t components,
+                                   size_t vertexCount);
     /// Nothing where every triangle names a vertex that does not exist.
     std::optional<size_t> indicesOf(size_t accessor, size_t mode, size_t vertexCount);
     size_t floatAccessor(size_t accessor);
@@ -115,26 +120,32 @@ std::optional<size_t> PlainBuilder::indicesOf(size_t accessor, size_t mode, size
     return unroll(indices.data(), indices.size() * sizeof(uint32_t), info.count, ComponentType::u32, "SCALAR");
 }
 
-json PlainBuilder::attributesOf(const JsonView& primitive, size_t uvSet, size_t vertexCount) {
-    const JsonView attributes = primitive.object("attributes");
+std::optional<size_t> PlainBuilder::matching(const JsonView& primitive, const std::string& name, size_t components,
+                                             size_t vertexCount) {
     const size_t accessorCount = document_.root().array("accessors").size();
-    json plain = {{"POSITION", floatAccessor(*attributes.index("POSITION", accessorCount))}};
-    const auto copy = [&](const char* name, const std::string& from, size_t components) {
-        const std::optional<size_t> accessor = attributes.index(from.c_str(), accessorCount);
-        if (!accessor) return;
-        const Accessor info = accessorAt(document_, *accessor);
-        if (info.components == components && info.count == vertexCount)
-            plain[name] = floatAccessor(*accessor);
-        else
-            ++leftOut_.mismatched;
-    };
-    copy("NORMAL", "NORMAL", 3);
-    copy("TANGENT", "TANGENT", 4);
-    copy("TEXCOORD_0", "TEXCOORD_" + std::to_string(uvSet), 2);
+    const std::optional<size_t> accessor = primitive.object("attributes").index(name.c_str(), accessorCount);
+    if (!accessor) return std::nullopt;
+    const Accessor info = accessorAt(document_, *accessor);
+    if (info.components == components && info.count == vertexCount) return accessor;
+    ++leftOut_.mismatched;
+    return std::nullopt;
+}
+
+std::optional<size_t> PlainBuilder::uvsOf(const JsonView& primitive, size_t uvSet) {
+    const size_t accessorCount = document_.root().array("accessors").size();
+    const size_t position = *primitive.object("attributes").index("POSITION", accessorCount);
+    return matching(primitive, "TEXCOORD_" + std::to_string(uvSet), 2, accessorAt(document_, position).count);
+}
+
+json PlainBuilder::attributesOf(const JsonView& primitive, size_t vertexCount) {
+    const size_t accessorCount = document_.root().array("accessors").size();
+    json plain = {{"POSITION", floatAccessor(*primitive.object("attributes").index("POSITION", accessorCount))}};
+    if (const auto normal = matching(primitive, "NORMAL", 3, vertexCount)) plain["NORMAL"] = floatAccessor(*normal);
+    if (const auto tangent = matching(primitive, "TANGENT", 4, vertexCount)) plain["TANGENT"] = floatAccessor(*tangent);
     return plain;
 }
 
-bool PlainBuilder::add(const JsonView& primitive, size_t uvSet) {
+bool PlainBuilder::add(const JsonView& primitive) {
     const size_t accessorCount = document_.root().array("accessors").size();
     const std::optional<size_t> position = primitive.object("attributes").index("POSITION", accessorCount);
     if (!position) return false;
@@ -145,7 +156,7 @@ bool PlainBuilder::add(const JsonView& primitive, size_t uvSet) {
     if (mode < kTriangles) leftOut_.pointsAndLines += cornerCount / (mode == 1 ? 2 : 1);
     if (mode < kTriangles || cornerCount < 3 || vertexCount == 0) return false;
 
-    json plain = {{"mode", mode}, {"attributes", attributesOf(primitive, uvSet, vertexCount)}};
+    json plain = {{"mode", mode}, {"attributes", attributesOf(primitive, vertexCount)}};
     if (indices) {
         const std::optional<size_t> copied = indicesOf(*indices, mode, vertexCount);
         if (!copied) return false;
@@ -201,9 +212,10 @@ PlainGltf plainGeometry(const GltfDocument& document, std::span<const PlacedNode
         const std::string name = meshes.element(m).text("name", "mesh " + std::to_string(m));
         for (size_t p = 0; p < primitives.size(); ++p) {
             const auto material = primitives.element(p).index("material", uvSets.size());
-            if (!builder.add(primitives.element(p), material ? uvSets[*material] : 0)) continue;
+            if (!builder.add(primitives.element(p))) continue;
             const std::string suffix = primitives.size() > 1 ? " [" + std::to_string(p) + "]" : "";
-            result.parts.push_back({m, name + suffix, material});
+            const auto uvs = builder.uvsOf(primitives.element(p), material ? uvSets[*material] : 0);
+            result.parts.push_back({m, name + suffix, material, uvs});
         }
     }
     builder.finish(result);

@@ -35,17 +35,21 @@ glm::vec3 notNegative(glm::vec3 v) { return glm::max(v, glm::vec3(0.0f)); }
 ImageSource imageSource(const GltfDocument& document, size_t index) {
     const JsonView root = document.root();
     const JsonView image = root.array("images").element(index);
-    const std::string fallbackName = document.path.filename().string() + " image " + std::to_string(index);
+    const std::string key = document.path.filename().string() + " image " + std::to_string(index);
+    const std::string label = image.text("name", "");
     if (const auto view = image.index("bufferView", root.array("bufferViews").size()))
-        return {.name = fallbackName, .file = {}, .bytes = viewBytes(document, *view), .dataUri = {}};
+        return {.name = key, .file = {}, .bytes = viewBytes(document, *view), .dataUri = {}, .label = label};
     if (!image.has("uri")) image.fail("has neither a uri nor a bufferView");
     const std::string uri = image.text("uri", "");
     if (isDataUri(uri))
-        return {.name = fallbackName,
+        return {.name = key,
                 .file = {},
                 .bytes = {},
-                .dataUri = image.json()["uri"].get_ref<const std::string&>()};
-    return imageFile(resolveResource(document.path.parent_path(), uri));
+                .dataUri = image.json()["uri"].get_ref<const std::string&>(),
+                .label = label};
+    ImageSource source = imageFile(resolveResource(document.path.parent_path(), uri));
+    source.label = label;
+    return source;
 }
 
 Wrap wrapOf(const JsonView& sampler, const char* key) {

@@ -5,7 +5,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "engine/scene/gltf_extras.h"
 #include "engine/scene/import_parts.h"
+#include "engine/scene/mesh_shading.h"
 
 namespace raylab {
 namespace {
@@ -62,8 +64,28 @@ std::vector<size_t> rootNodes(const JsonView& root) {
 /// The unit vector along column `axis`; the identity's where a scale of 0 leaves no direction.
 glm::dvec3 axisOf(const glm::dmat4& matrix, int axis) {
     const glm::dvec3 column(matrix[axis]);
+    if (isUnit(column)) return column;
     const double length = glm::length(column);
     return length > 0.0 ? column / length : glm::dvec3(glm::dmat3(1.0)[axis]);
+}
+
+/// To a microradian, which lets through what another program's single precision makes of a matrix. False for a zero
+/// axis.
+bool sameView(const glm::dmat4& a, const glm::dmat4& b) {
+    const auto aligned = [&](int axis) {
+        return glm::dot(glm::normalize(glm::dvec3(a[axis])), glm::normalize(glm::dvec3(b[axis]))) > 1.0 - 1e-12;
+    };
+    return aligned(1) && aligned(2);
+}
+
+/// The view as it was saved, unless the node shows another one by now.
+void restoreView(const JsonView& json, const PlacedNode& placed, Camera& camera) {
+    const std::optional<JsonView> extras = raylabExtras(json);
+    if (!extras || !extras->has("target")) return;
+    Camera saved = camera;
+    saved.target = extras->vec3("target", camera.target);
+    saved.up = extras->vec3("up", camera.up);
+    if (sameView(cameraToWorld(saved), placed.toWorld)) camera = saved;
 }
 
 Camera perspectiveCamera(const JsonView& json, const PlacedNode& placed) {
@@ -75,6 +97,7 @@ Camera perspectiveCamera(const JsonView& json, const PlacedNode& placed) {
     camera.up = axisOf(placed.toWorld, 1);
     camera.fovYRadians = static_cast<float>(json.object("perspective").number("yfov", 0.8));
     if (!(camera.fovYRadians > 0.0f && camera.fovYRadians < 3.14f)) json.fail("needs a yfov between 0 and pi radians");
+    restoreView(json, placed, camera);
     return camera;
 }
 
@@ -92,6 +115,7 @@ Light punctualLight(const JsonView& json, const PlacedNode& placed) {
     light.position = glm::dvec3(placed.toWorld[3]);
     light.direction = -axisOf(placed.toWorld, 2);
     light.intensity = json.vec3("color", glm::vec3(1.0f)) * static_cast<float>(json.number("intensity", 1.0));
+    if (light.kind != LightKind::spot) return light;
     const JsonView spot = json.object("spot");
     light.outerConeRadians = static_cast<float>(spot.number("outerConeAngle", 0.7853981633974483));
     light.innerConeRadians = std::min(static_cast<float>(spot.number("innerConeAngle", 0.0)), light.outerConeRadians);
@@ -99,6 +123,16 @@ Light punctualLight(const JsonView& json, const PlacedNode& placed) {
 }
 
 }  // namespace
+
+glm::dmat4 cameraToWorld(const Camera& camera) {
+    const glm::dvec3 axis = glm::dvec3(camera.target) - glm::dvec3(camera.position);
+    const glm::dvec3 forward = glm::length(axis) > 0.0 ? glm::normalize(axis) : glm::dvec3(0.0, 0.0, -1.0);
+    const glm::dvec3 side = glm::cross(forward, glm::dvec3(camera.up));
+    const glm::dvec3 right =
+        glm::length(side) > 0.0 ? glm::normalize(side) : glm::normalize(glm::dvec3(anyOrthogonal(forward)));
+    return glm::dmat4(glm::dvec4(right, 0.0), glm::dvec4(glm::cross(right, forward), 0.0), glm::dvec4(-forward, 0.0),
+                      glm::dvec4(camera.position, 1.0));
+}
 
 std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
     const JsonView root = document.root();

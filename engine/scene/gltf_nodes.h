@@ -19,7 +19,12 @@ struct PlacedNode {
 /// million times.
 std::vector<PlacedNode> placeNodes(const GltfDocument& document);
 
-/// Perspective cameras; orthographic ones are left out with a warning.
+/// The node transform of a camera: it looks along -Z, +Y is up, no scale.
+glm::dmat4 cameraToWorld(const Camera& camera);
+
+/// Perspective cameras; orthographic ones are left out with a warning. `extras.raylab` of a camera may hold its exact
+/// `target` and `up`, of which the node's matrix says the direction alone; where the node has been turned or moved
+/// since, the matrix counts.
 void readGltfCameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene);
 
 /// KHR_lights_punctual. A light shines along the node's -Z; intensities are taken as they are (candela, lux).

@@ -17,13 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtensions[] = {".gltf", ".glb", ".obj", ".ply", ".stl"};
 
-std::string lowerExtension(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
 /// Singular is meant relative to the lengths of the columns: a scene at 1e-4 of its size is fine, a flattened one is
 /// not. A float matrix cannot tell less than 1e-7 from 0.
 bool isInvertible(const glm::dmat4& matrix) {
@@ -39,7 +32,7 @@ void dropUnusedMeshes(Scene& scene) {
     std::vector<Mesh> kept;
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         newIndex[m] = static_cast<uint32_t>(kept.size());
-        used[m] = used[m] && !scene.meshes[m].triangles.empty();
+        used[m] = used[m] && !(scene.meshes[m].triangles.empty() && scene.meshes[m].quadrics.empty());
         if (used[m]) kept.push_back(std::move(scene.meshes[m]));
     }
     std::erase_if(scene.instances, [&used](const Instance& instance) { return !used[instance.mesh]; });
@@ -60,11 +53,11 @@ void dropUnusedMaterials(Scene& scene) {
     scene.materials = std::move(kept);
 }
 
-void requireTriangles(const Scene& scene, const fs::path& path) {
+void requireSurfaces(const Scene& scene, const fs::path& path) {
     if (!scene.instances.empty()) return;
-    std::string message = path.string() + ": there is nothing to render in it, not one triangle";
+    std::string message = path.string() + ": there is nothing to render in it, not one triangle or quadric";
     for (size_t i = 0; i < std::min<size_t>(scene.warnings.size(), 3); ++i) message += "; " + scene.warnings[i];
-    throw Error(message + "; open a file with triangles");
+    throw Error(message + "; open a file with surfaces");
 }
 
 /// Names a few; a file may hold thousands.
@@ -85,6 +78,13 @@ void supplyTangents(Scene& scene) {
 
 }  // namespace
 
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
 bool isBounded(const glm::dmat4& transform) {
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 3; ++r)
@@ -93,8 +93,9 @@ bool isBounded(const glm::dmat4& transform) {
 }
 
 void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld) {
-    if (isBounded(toWorld) && isInvertible(toWorld))
-        draft.scene.instances.push_back({name, static_cast<uint32_t>(mesh), glm::mat4(toWorld)});
+    const glm::mat4 stored(toWorld);
+    if (isBounded(stored) && isInvertible(stored))
+        draft.scene.instances.push_back({name, static_cast<uint32_t>(mesh), stored});
     else
         draft.singular.push_back(name);
 }
@@ -105,7 +106,7 @@ Scene finishScene(SceneDraft&& draft, const fs::path& path) {
     draft.repairs.report(scene.warnings);
     reportSingular(draft.singular, scene.warnings);
     dropUnusedMeshes(scene);
-    requireTriangles(scene, path);
+    requireSurfaces(scene, path);
     dropUnusedMaterials(scene);
     resolveTextures(draft.requests, scene);
     supplyTangents(scene);

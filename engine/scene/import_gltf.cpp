@@ -5,10 +5,12 @@
 #include <string_view>
 
 #include "engine/scene/assimp_reader.h"
+#include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_extras.h"
 #include "engine/scene/gltf_geometry.h"
 #include "engine/scene/gltf_material.h"
 #include "engine/scene/gltf_nodes.h"
+#include "engine/scene/gltf_quadrics.h"
 #include "engine/scene/gltf_validate.h"
 #include "engine/scene/import_material.h"
 #include "engine/scene/import_parts.h"
@@ -44,7 +46,7 @@ uint32_t materialIndex(Scene& scene, const std::optional<size_t>& material, std:
 }
 
 void convertParts(const GltfDocument& document, const PlainGltf& plain, std::span<const UvUse> uvUses,
-                  SceneDraft& draft) {
+                  std::optional<uint32_t>& fallbackMaterial, SceneDraft& draft) {
     Scene& scene = draft.scene;
     if (plain.parts.empty()) return;
     Assimp::Importer importer;
@@ -54,19 +56,35 @@ void convertParts(const GltfDocument& document, const PlainGltf& plain, std::spa
     std::vector<MeshRepairs> repairs(plain.parts.size());
     tbb::parallel_for(size_t{0}, plain.parts.size(), [&](size_t p) {
         if (!sources[p]) return;
-        scene.meshes[p] = convertMesh(*sources[p], {}, repairs[p]);
+        const std::vector<float> uvs =
+            plain.parts[p].uvs ? readFloats(document, *plain.parts[p].uvs) : std::vector<float>();
+        scene.meshes[p] = convertMesh(*sources[p], {.uvs = uvs}, repairs[p]);
         if (plain.parts[p].material) bakeUvTransform(scene.meshes[p], uvUses[*plain.parts[p].material].transform);
     });
-    std::optional<uint32_t> fallback;
     for (size_t p = 0; p < plain.parts.size(); ++p) {
         scene.meshes[p].name = plain.parts[p].name;
-        scene.meshes[p].material = materialIndex(scene, plain.parts[p].material, fallback);
+        scene.meshes[p].material = materialIndex(scene, plain.parts[p].material, fallbackMaterial);
         draft.repairs += repairs[p];
     }
 }
 
+/// Appends a mesh an entry; result: the number of entries.
+size_t addQuadrics(const GltfDocument& document, std::span<const UvUse> uvUses,
+                   std::optional<uint32_t>& fallbackMaterial, Scene& scene) {
+    std::vector<GltfQuadrics> entries = readGltfQuadrics(document);
+    for (GltfQuadrics& entry : entries) {
+        if (entry.material && uvUses[*entry.material].transform != glm::mat3(1.0f))
+            scene.warnings.push_back("quadrics \"" + entry.mesh.name +
+                                     "\" ignore the KHR_texture_transform of their material");
+        entry.mesh.material = materialIndex(scene, entry.material, fallbackMaterial);
+        scene.meshes.push_back(std::move(entry.mesh));
+    }
+    return entries.size();
+}
+
+/// The meshes of the parts come first, those of the quadrics after them.
 void placeInstances(const GltfDocument& document, const std::vector<PlacedNode>& nodes, const PlainGltf& plain,
-                    SceneDraft& draft) {
+                    size_t quadricsCount, SceneDraft& draft) {
     const JsonView allNodes = document.root().array("nodes");
     const size_t meshCount = document.root().array("meshes").size();
     std::vector<std::vector<size_t>> partsOf(meshCount);
@@ -74,9 +92,12 @@ void placeInstances(const GltfDocument& document, const std::vector<PlacedNode>&
     for (const PlacedNode& placed : nodes) {
         const JsonView node = allNodes.element(placed.node);
         const auto mesh = node.index("mesh", meshCount);
-        if (!mesh) continue;
+        const auto quadrics = quadricsOfNode(node, quadricsCount);
+        if (!mesh && !quadrics) continue;
         const std::string name = node.text("name", "node " + std::to_string(placed.node));
-        for (const size_t part : partsOf[*mesh]) placeInstance(draft, name, part, placed.toWorld);
+        if (mesh)
+            for (const size_t part : partsOf[*mesh]) placeInstance(draft, name, part, placed.toWorld);
+        if (quadrics) placeInstance(draft, name, plain.parts.size() + *quadrics, placed.toWorld);
     }
 }
 
@@ -92,8 +113,10 @@ Scene importGltf(const std::filesystem::path& path) {
     std::vector<size_t> uvSets;
     for (const UvUse& use : uvUses) uvSets.push_back(use.set);
     const PlainGltf plain = plainGeometry(document, nodes, uvSets, scene.warnings);
-    convertParts(document, plain, uvUses, draft);
-    placeInstances(document, nodes, plain, draft);
+    std::optional<uint32_t> fallbackMaterial;
+    convertParts(document, plain, uvUses, fallbackMaterial, draft);
+    const size_t quadricsCount = addQuadrics(document, uvUses, fallbackMaterial, scene);
+    placeInstances(document, nodes, plain, quadricsCount, draft);
     readGltfCameras(document, nodes, scene);
     readGltfLights(document, nodes, scene);
     readGltfExtras(document, scene);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -60,16 +61,21 @@ void copyTriangles(const aiMesh& source, Mesh& mesh, MeshRepairs& repairs) {
 }
 
 /// Assimp counts v upwards in every format; Scene counts it downwards.
-void copyUvs(const aiMesh& source, Mesh& mesh, MeshRepairs& repairs) {
-    if (!source.HasTextureCoords(0)) return;
+void copyUvs(const aiMesh& source, std::span<const float> uvs, Mesh& mesh, MeshRepairs& repairs) {
+    if (uvs.empty() && !source.HasTextureCoords(0)) return;
     mesh.uvs.resize(mesh.positions.size());
     for (size_t i = 0; i < mesh.uvs.size(); ++i) {
-        const aiVector3D& uv = source.mTextureCoords[0][i];
+        const aiVector3D flipped = uvs.empty() ? source.mTextureCoords[0][i] : aiVector3D();
+        const glm::vec2 uv =
+            uvs.empty() ? glm::vec2(flipped.x, 1.0f - flipped.y) : glm::vec2(uvs[2 * i], uvs[2 * i + 1]);
         const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
         repairs.uvs += !finite;
-        mesh.uvs[i] = finite ? glm::vec2(uv.x, 1.0f - uv.y) : glm::vec2(0.0f);
+        mesh.uvs[i] = finite ? uv : glm::vec2(0.0f);
     }
 }
+
+/// `length` is that of `v` and not 0.
+glm::vec3 normalized(glm::vec3 v, float length) { return isUnit(v) ? v : v / length; }
 
 void copyNormals(const aiMesh& source, Mesh& mesh, MeshRepairs& repairs) {
     mesh.normals.resize(mesh.positions.size());
@@ -78,7 +84,7 @@ void copyNormals(const aiMesh& source, Mesh& mesh, MeshRepairs& repairs) {
         const glm::vec3 normal = toVec3(source.mNormals[i]);
         const float length = glm::length(normal);
         const bool usable = std::isfinite(length) && length > 1e-18f;
-        mesh.normals[i] = usable ? normal / length : glm::vec3(0.0f, 0.0f, 1.0f);
+        mesh.normals[i] = usable ? normalized(normal, length) : glm::vec3(0.0f, 0.0f, 1.0f);
         if (!usable) bad.push_back(i);
     }
     if (bad.empty()) return;
@@ -99,7 +105,7 @@ void copyTangents(const aiMesh& source, Mesh& mesh) {
             return;
         }
         const float side = glm::dot(glm::cross(mesh.normals[i], tangent), bitangent);
-        mesh.tangents[i] = glm::vec4(tangent / length, side < 0.0f ? -1.0f : 1.0f);
+        mesh.tangents[i] = glm::vec4(normalized(tangent, length), side < 0.0f ? -1.0f : 1.0f);
     }
 }
 
@@ -161,13 +167,16 @@ void MeshRepairs::report(std::vector<std::string>& warnings) const {
     say(uvs, "texture coordinates that were not finite, set to 0");
 }
 
+bool isUnit(glm::dvec3 v) { return std::abs(glm::dot(v, v) - 1.0) <= 1e-6; }
+
 Mesh convertMesh(const aiMesh& source, const MeshOptions& options, MeshRepairs& repairs) {
     Mesh mesh;
     mesh.name = source.mName.C_Str();
     mesh.positions.resize(source.mNumVertices);
     for (size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] = toVec3(source.mVertices[i]);
     copyTriangles(source, mesh, repairs);
-    copyUvs(source, mesh, repairs);
+    assert(options.uvs.empty() || options.uvs.size() == 2 * mesh.positions.size());
+    copyUvs(source, options.uvs, mesh, repairs);
     if (source.HasNormals() && options.normals != NormalRule::flat) copyNormals(source, mesh, repairs);
     if (!mesh.normals.empty() && source.HasTangentsAndBitangents()) copyTangents(source, mesh);
     compactVertices(mesh);

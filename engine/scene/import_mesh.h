@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,13 @@ constexpr float kLargestCoordinate = 1e18f;
 struct MeshOptions {
     NormalRule normals = NormalRule::keep;
     bool weld = false;  ///< merge vertices whose attributes agree bit for bit
+    /// u and v (downwards) of each vertex, instead of Assimp's: its glTF reader stores 1 - v, which rounds.
+    std::span<const float> uvs = {};
 };
+
+/// Unit length to within the rounding of floats. Such a vector is kept as it is: normalising it again would move its
+/// last bits at every import of what was saved.
+bool isUnit(glm::dvec3 v);
 
 /// Copies an Assimp mesh, polygons cut into triangles. In the result every index exists, every value is finite, every
 /// normal has unit length and every vertex is used. It may have no triangles.

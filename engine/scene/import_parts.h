@@ -19,15 +19,18 @@ struct SceneDraft {
     std::vector<std::string> singular;  ///< instances that were left out
 };
 
+/// ".glb" of "a.GLB".
+std::string lowerExtension(const std::filesystem::path& path);
+
 /// Whether all that the transform holds is finite and at most kLargestCoordinate.
 bool isBounded(const glm::dmat4& transform);
 
 /// Adds an instance unless its transform is singular or not finite; finishScene then names it in a warning.
 void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld);
 
-/// Drops meshes without triangles or instances and materials without meshes, computes tangents where a normal map asks
+/// Drops meshes without primitives or instances and materials without meshes, computes tangents where a normal map asks
 /// for them, decodes the textures and writes the report on repairs. What the images point to must still be alive.
-/// Throws Error where no triangle is left.
+/// Throws Error where no surface is left.
 Scene finishScene(SceneDraft&& draft, const std::filesystem::path& path);
 
 /// The two ways in; importScene chooses by the extension (in lower case, with its dot).

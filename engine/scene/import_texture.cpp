@@ -43,20 +43,25 @@ std::array<int32_t*, 4> textureSlots(Material& material) {
             &material.emissionTexture};
 }
 
-/// Requests that some material still refers to: the material may have dropped its texture, the scene the material.
-std::vector<bool> usedRequests(size_t requestCount, std::vector<Material>& materials) {
-    std::vector<bool> used(requestCount, false);
+/// Requests that some material still refers to (the material may have dropped its texture, the scene the material), in
+/// the order in which the materials name them: that of the textures, so that saving and reading again keeps it.
+std::vector<size_t> usedRequests(size_t requestCount, std::vector<Material>& materials) {
+    std::vector<bool> seen(requestCount, false);
+    std::vector<size_t> used;
     for (Material& material : materials)
-        for (const int32_t* slot : textureSlots(material))
-            if (*slot != kNoTexture) used[static_cast<size_t>(*slot)] = true;
+        for (const int32_t* slot : textureSlots(material)) {
+            if (*slot == kNoTexture || seen[static_cast<size_t>(*slot)]) continue;
+            seen[static_cast<size_t>(*slot)] = true;
+            used.push_back(static_cast<size_t>(*slot));
+        }
     return used;
 }
 
-DecodedImages decodeAll(const std::vector<TextureRequest>& requests, const std::vector<bool>& used) {
+DecodedImages decodeAll(const std::vector<TextureRequest>& requests, const std::vector<size_t>& used) {
     std::map<std::string, const ImageSource*> sources;
-    for (size_t r = 0; r < requests.size(); ++r)
+    for (const size_t r : used)
         for (const ImageSource* source : {&requests[r].image, &requests[r].alpha})
-            if (used[r] && !source->empty()) sources.emplace(source->name, source);
+            if (!source->empty()) sources.emplace(source->name, source);
     const std::vector<std::pair<std::string, const ImageSource*>> list(sources.begin(), sources.end());
     std::vector<DecodedImage> results(list.size());
     tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) { results[i] = decode(*list[i].second); });
@@ -136,16 +141,16 @@ int32_t TextureRequests::add(TextureRequest request) {
 }
 
 void resolveTextures(const TextureRequests& requests, Scene& scene) {
-    const std::vector<bool> used = usedRequests(requests.all().size(), scene.materials);
+    const std::vector<size_t> used = usedRequests(requests.all().size(), scene.materials);
     const DecodedImages decoded = decodeAll(requests.all(), used);
-    std::vector<int32_t> textureOf(used.size(), kNoTexture);
-    for (size_t r = 0; r < used.size(); ++r) {
-        if (!used[r]) continue;
+    std::vector<int32_t> textureOf(requests.all().size(), kNoTexture);
+    for (const size_t r : used) {
         const TextureRequest& request = requests.all()[r];
         std::optional<Image8> pixels = pixelsOf(request, decoded, scene.warnings);
         if (!pixels) continue;
         textureOf[r] = static_cast<int32_t>(scene.textures.size());
-        scene.textures.push_back({.name = request.image.empty() ? request.alpha.name : request.image.name,
+        const ImageSource& source = request.image.empty() ? request.alpha : request.image;
+        scene.textures.push_back({.name = source.label.empty() ? source.name : source.label,
                                   .width = pixels->width,
                                   .height = pixels->height,
                                   .texels = std::move(pixels->texels),
@@ -153,9 +158,11 @@ void resolveTextures(const TextureRequests& requests, Scene& scene) {
                                   .wrapU = request.wrapU,
                                   .wrapV = request.wrapV});
     }
-    for (Material& material : scene.materials)
+    for (Material& material : scene.materials) {
         for (int32_t* slot : textureSlots(material))
             if (*slot != kNoTexture) *slot = textureOf[static_cast<size_t>(*slot)];
+        if (material.normalTexture == kNoTexture) material.normalScale = 1.0f;
+    }
 }
 
 }  // namespace raylab

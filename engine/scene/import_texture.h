@@ -17,6 +17,7 @@ struct ImageSource {
     std::filesystem::path file;
     std::span<const std::byte> bytes;
     std::string_view dataUri;
+    std::string label = {};  ///< the author's name for it; empty: `name` serves
 
     bool empty() const { return name.empty(); }
 };

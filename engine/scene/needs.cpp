@@ -58,8 +58,10 @@ bool hasTexture(const Material& m) {
 }
 
 Need instancingNeed(const TreePlan& plan) {
-    std::string reason = "every mesh is shown once, at one scale: one tree in world space";
-    if (plan.hasUpperTree())
+    std::string reason = "all that is shown is in one tree in world space";
+    if (plan.asked > 0)
+        reason = "a tree for each of " + count(plan.asked, "mesh", "meshes");
+    else if (plan.hasUpperTree())
         reason = count(plan.sharedMeshes, "mesh is", "meshes are") + " shown more than once, " +
                  count(plan.fineMeshes, "is", "are") + " finer than a grid over the world";
     return {shared::kNeedInstancing, "instancing", plan.hasUpperTree(), reason};
@@ -79,6 +81,11 @@ Need smoothNeed(const Scene& scene, const TreePlan& plan) {
         if (plan.useCount[mesh] > 0 && !scene.meshes[mesh].normals.empty()) ++n;
     return {shared::kNeedSmoothNormals, "smooth normals", n > 0,
             n > 0 ? count(n, "mesh has", "meshes have") + " vertex normals" : "all meshes are flat"};
+}
+
+Need quadricNeed(const Scene& scene) {
+    const size_t n = quadricCount(scene).instanced;
+    return {shared::kNeedQuadrics, "quadrics", n > 0, n > 0 ? count(n, "is shown", "are shown") : "none in the scene"};
 }
 
 /// Edges shorter than this get lost on a grid over the world.
@@ -101,6 +108,11 @@ TreePlan planTrees(const Scene& scene, const TreePlanConfig& config) {
         const size_t mesh = instance.mesh;
         const bool isShared = plan.useCount[mesh] > 1 && !flattens;
         if (plan.ownTree[mesh]) continue;
+        if (config.treePerMesh) {
+            plan.ownTree[mesh] = true;
+            ++plan.asked;
+            continue;
+        }
         if (!isShared && !(finest > 0.0 && typicalEdge(scene.meshes[mesh], instance.objectToWorld) < finest)) continue;
         plan.ownTree[mesh] = true;
         ++(isShared ? plan.sharedMeshes : plan.fineMeshes);
@@ -130,6 +142,7 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
          scene.lights.empty() ? "none in the scene" : count(scene.lights.size(), "light", "lights")},
         {shared::kNeedEnvironment, "environment", scene.environment.has_value(),
          scene.environment ? "radiance from infinitely far away" : "black beyond the scene"},
+        quadricNeed(scene),
     };
     for (const Need& need : result.needs)
         if (need.needed) result.mask |= need.bit;

@@ -29,18 +29,20 @@ struct TreePlanConfig {
     /// rays are faster then, at the price of memory.
     size_t flattenLimit = 4'000'000;
     bool gridOverTree = false;  ///< boxes are quantised on a grid over a whole tree, which has only so many steps
+    bool treePerMesh = false;   ///< each mesh has a tree of its own, however often it is shown
 };
 
 /// How the trees are laid out. All in one tree in world space, unless the scene shows too many triangles: then a mesh that is
 /// shown more than once has a tree of its own below its instances, and so has one whose detail is too fine for a grid over the
-/// world.
+/// world. Or every mesh has one.
 struct TreePlan {
     std::vector<uint32_t> useCount;  ///< instances by mesh
     std::vector<bool> ownTree;       ///< by mesh; false also for meshes that no instance shows
     size_t sharedMeshes = 0;         ///< shown more than once
-    size_t fineMeshes = 0;           ///< shown once, with a tree of their own
+    size_t fineMeshes = 0;           ///< shown once, with a tree of their own because of the grid
+    size_t asked = 0;                ///< meshes with a tree of their own because each is to have one
 
-    bool hasUpperTree() const { return sharedMeshes + fineMeshes > 0; }
+    bool hasUpperTree() const { return sharedMeshes + fineMeshes + asked > 0; }
 };
 
 TreePlan planTrees(const Scene& scene, const TreePlanConfig& config);

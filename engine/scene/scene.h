@@ -50,7 +50,24 @@ struct Material {
     bool doubleSided = false;  ///< both faces emit; other shading is two-sided always
 };
 
-/// Triangles of one material. All per-vertex arrays are either empty or as long as `positions`.
+enum class QuadricKind : uint32_t { ellipsoid = 0, cylinder = 1, cone = 2, hyperboloid = 3, paraboloid = 4 };
+
+/// A surface of the second degree around the z axis, with X = x / radii.x, Y = y / radii.y, Z = z / radii.z:
+///   ellipsoid X^2 + Y^2 + Z^2 = 1, cylinder X^2 + Y^2 = 1, cone X^2 + Y^2 = Z^2,
+///   hyperboloid (of one sheet) X^2 + Y^2 - Z^2 = 1, elliptic paraboloid X^2 + Y^2 = Z.
+/// What lies outside clipLow <= z <= clipHigh is cut away and the surface is open there. All numbers are finite, the
+/// radii positive, clipLow < clipHigh. Another axis is a matter of the instance's transform.
+struct Quadric {
+    QuadricKind kind = QuadricKind::ellipsoid;
+    glm::vec3 radii{1.0f};
+    float clipLow = -1.0f;
+    float clipHigh = 1.0f;
+
+    bool operator==(const Quadric&) const = default;
+};
+
+/// Triangles of one material, or quadrics of one material: one of the two lists is empty. All per-vertex arrays are
+/// either empty or as long as `positions`. A primitive's id is its index in its list.
 struct Mesh {
     std::string name;
     uint32_t material = 0;
@@ -59,6 +76,7 @@ struct Mesh {
     std::vector<glm::vec2> uvs;       ///< v grows downwards, as in glTF: (0,0) is the first texel of the first row
     std::vector<glm::vec4> tangents;  ///< unit, w = handedness of the bitangent, as in glTF
     std::vector<glm::uvec3> triangles;
+    std::vector<Quadric> quadrics;
 };
 
 struct Instance {

@@ -27,7 +27,7 @@ struct InfoOptions {
 struct Info {
     Scene scene;
     Bounds bounds;
-    TriangleCount triangles;
+    PrimitiveCount triangles, quadrics;
     SceneNeeds needs;
     BvhReport bvh;
     size_t sceneBytes = 0;
@@ -54,6 +54,7 @@ Info gather(const InfoOptions& options) {
     settleEnvironment(info.scene, {});
     info.bounds = sceneBounds(info.scene);
     info.triangles = triangleCount(info.scene);
+    info.quadrics = quadricCount(info.scene);
     info.needs = analyseNeeds(info.scene, treePlanConfig(config));
     info.bvh = measureBvh(info.scene, config, options.bvh ? BvhDetail::full : BvhDetail::quick);
     info.sceneBytes = measureSceneBytes(info.scene, 0.5f * glm::length(info.bounds.hi - info.bounds.lo));
@@ -70,6 +71,8 @@ nlohmann::ordered_json infoJson(const InfoOptions& options, const Info& info) {
             {"scene", options.scene},
             {"triangles", info.triangles.stored},
             {"instancedTriangles", info.triangles.instanced},
+            {"quadrics", info.quadrics.stored},
+            {"instancedQuadrics", info.quadrics.instanced},
             {"instances", info.scene.instances.size()},
             {"meshes", info.scene.meshes.size()},
             {"materials", info.scene.materials.size()},
@@ -89,6 +92,7 @@ void printInfo(const InfoOptions& options, const Info& info) {
     const auto mebibytes = [](size_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
     std::cout << std::fixed << std::setprecision(1) << options.scene << "  (import " << info.importSeconds << " s)\n"
               << "  triangles   " << info.triangles.stored << " stored, " << info.triangles.instanced << " shown\n"
+              << "  quadrics    " << info.quadrics.stored << " stored, " << info.quadrics.instanced << " shown\n"
               << "  meshes      " << s.meshes.size() << " in " << s.instances.size() << " instances\n"
               << "  materials   " << s.materials.size() << ", textures " << s.textures.size() << "\n"
               << "  lights      " << s.lights.size() << " punctual\n  cameras     " << s.cameras.size();

@@ -1,0 +1,19 @@
+#include "engine/image/image8.h"
+
+#include <algorithm>
+
+#include "engine/image/formats.h"
+
+namespace raylab {
+
+std::vector<std::byte> encodePng8(std::span<const uint32_t> texels, uint32_t width, uint32_t height) {
+    const bool opaque = std::all_of(texels.begin(), texels.end(), [](uint32_t texel) { return texel >> 24 == 255; });
+    const uint32_t channels = opaque ? 3 : 4;
+    std::vector<uint8_t> samples;
+    samples.reserve(texels.size() * channels);
+    for (const uint32_t texel : texels)
+        for (uint32_t c = 0; c < channels; ++c) samples.push_back(static_cast<uint8_t>(texel >> 8 * c & 0xFF));
+    return formats::encodePng8(samples, static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels));
+}
+
+}  // namespace raylab

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <bit>
+
+#include "import_support.h"
+
+/// Scenes compared bit for bit: -0 is not 0 here, and a NaN equals itself.
+namespace raylab::importtest {
+
+template <class T>
+void expectSameBits(const std::vector<T>& a, const std::vector<T>& b, const std::string& what) {
+    ASSERT_EQ(a.size(), b.size()) << what;
+    for (size_t i = 0; i < a.size(); ++i)
+        ASSERT_EQ(std::memcmp(&a[i], &b[i], sizeof(T)), 0) << what << " " << i << " of " << a.size();
+}
+
+template <class T>
+void expectSameBits(const T& a, const T& b, const std::string& what) {
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof(T)), 0) << what;
+}
+
+inline void expectSame(const Texture& a, const Texture& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.width, b.width) << a.name;
+    EXPECT_EQ(a.height, b.height) << a.name;
+    EXPECT_EQ(a.srgb, b.srgb) << a.name;
+    EXPECT_EQ(a.wrapU, b.wrapU) << a.name;
+    EXPECT_EQ(a.wrapV, b.wrapV) << a.name;
+    expectSameBits(a.texels, b.texels, "texels of " + a.name);
+}
+
+inline void expectSame(const Material& a, const Material& b) {
+    EXPECT_EQ(a.name, b.name);
+    expectSameBits(a.baseColor, b.baseColor, a.name + " baseColor");
+    expectSameBits(a.emission, b.emission, a.name + " emission");
+    const auto numbers = [](const Material& m) {
+        return std::vector<float>{m.alpha,       m.metallic,     m.roughness, m.normalScale,
+                                  m.alphaCutoff, m.transmission, m.ior,       m.specular};
+    };
+    expectSameBits(numbers(a), numbers(b),
+                   a.name + " alpha, metallic, roughness, normalScale, cutoff, transmission...");
+    EXPECT_EQ(a.baseColorTexture, b.baseColorTexture) << a.name;
+    EXPECT_EQ(a.metallicRoughnessTexture, b.metallicRoughnessTexture) << a.name;
+    EXPECT_EQ(a.normalTexture, b.normalTexture) << a.name;
+    EXPECT_EQ(a.emissionTexture, b.emissionTexture) << a.name;
+    EXPECT_EQ(a.alphaMode, b.alphaMode) << a.name;
+    EXPECT_EQ(a.thin, b.thin) << a.name;
+    EXPECT_EQ(a.doubleSided, b.doubleSided) << a.name;
+}
+
+inline void expectSame(const Mesh& a, const Mesh& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.material, b.material) << a.name;
+    expectSameBits(a.positions, b.positions, a.name + " positions");
+    expectSameBits(a.normals, b.normals, a.name + " normals");
+    expectSameBits(a.uvs, b.uvs, a.name + " uvs");
+    expectSameBits(a.tangents, b.tangents, a.name + " tangents");
+    expectSameBits(a.triangles, b.triangles, a.name + " triangles");
+    expectSameBits(a.quadrics, b.quadrics, a.name + " quadrics");
+}
+
+inline void expectSame(const Instance& a, const Instance& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.mesh, b.mesh) << a.name;
+    expectSameBits(a.objectToWorld, b.objectToWorld, a.name + " objectToWorld");
+}
+
+inline void expectSame(const Camera& a, const Camera& b) {
+    EXPECT_EQ(a.name, b.name);
+    expectSameBits(a.position, b.position, a.name + " position");
+    expectSameBits(a.target, b.target, a.name + " target");
+    expectSameBits(a.up, b.up, a.name + " up");
+    expectSameBits(a.fovYRadians, b.fovYRadians, a.name + " fovY");
+}
+
+inline void expectSame(const Light& a, const Light& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.kind, b.kind) << a.name;
+    expectSameBits(a.position, b.position, a.name + " position");
+    expectSameBits(a.direction, b.direction, a.name + " direction");
+    expectSameBits(a.intensity, b.intensity, a.name + " intensity");
+    expectSameBits(a.innerConeRadians, b.innerConeRadians, a.name + " inner cone");
+    expectSameBits(a.outerConeRadians, b.outerConeRadians, a.name + " outer cone");
+}
+
+template <class T>
+void expectSameList(const std::vector<T>& a, const std::vector<T>& b, const char* what) {
+    ASSERT_EQ(a.size(), b.size()) << what;
+    for (size_t i = 0; i < a.size(); ++i) {
+        SCOPED_TRACE(std::string(what) + " " + std::to_string(i));
+        expectSame(a[i], b[i]);
+    }
+}
+
+/// All but the warnings.
+inline void expectSameScene(const Scene& a, const Scene& b) {
+    EXPECT_EQ(a.name, b.name);
+    expectSameList(a.textures, b.textures, "textures");
+    expectSameList(a.materials, b.materials, "materials");
+    expectSameList(a.meshes, b.meshes, "meshes");
+    expectSameList(a.instances, b.instances, "instances");
+    expectSameList(a.cameras, b.cameras, "cameras");
+    expectSameList(a.lights, b.lights, "lights");
+    ASSERT_EQ(a.environment.has_value(), b.environment.has_value());
+    if (a.environment) {
+        EXPECT_EQ(a.environment->radiance.width, b.environment->radiance.width);
+        EXPECT_EQ(a.environment->radiance.height, b.environment->radiance.height);
+        expectSameBits(a.environment->radiance.pixels, b.environment->radiance.pixels, "environment");
+    }
+    ASSERT_EQ(a.sky.has_value(), b.sky.has_value());
+    if (a.sky) expectSameBits(*a.sky, *b.sky, "sky");
+}
+
+}  // namespace raylab::importtest
