@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/accel/build_input.h"
+
 namespace raylab {
 namespace {
 
@@ -14,7 +16,9 @@ float roundDown(double value) {
 
 }  // namespace
 
-ClippedTriangle::ClippedTriangle(std::span<const glm::vec3> positions, const glm::uvec3& triangle) : size(3) {
+ClippedTriangle::ClippedTriangle(std::span<const glm::vec3> positions, const glm::uvec3& triangle) {
+    if (triangle == kBoxAlone) return;
+    size = 3;
     for (int corner = 0; corner < 3; ++corner)
         vertices[static_cast<size_t>(corner)] = glm::dvec3(positions[triangle[corner]]);
 }

@@ -18,6 +18,7 @@ struct ClippedTriangle {
 
     ClippedTriangle() = default;
     std::span<const glm::dvec3> corners() const { return {vertices.data(), size}; }
+    /// Whole; nothing for kBoxAlone.
     ClippedTriangle(std::span<const glm::vec3> positions, const glm::uvec3& triangle);
     double area() const;
     /// Around the vertices, rounded outwards to float; empty without vertices.

@@ -10,12 +10,15 @@
 
 namespace raylab {
 
+/// Stands for the vertices of a primitive that is no triangle: its box is all there is to know of it.
+constexpr glm::uvec3 kBoxAlone(0xffffffffu);
+
 /// What a tree is built over. Whoever builds keeps the memory until the builder returns.
 struct BuildInput {
     std::span<const Aabb> bounds;  ///< of the primitives; those not usable() are left out and counted
     std::span<const glm::vec3> positions;
-    std::span<const glm::uvec3>
-        triangles;  ///< one for each of `bounds`, or none where the primitives are not triangles
+    /// One for each of `bounds` (kBoxAlone: a primitive of another kind), or none where no primitive is a triangle.
+    std::span<const glm::uvec3> triangles;
 };
 
 /// How the caller follows and stops a build.

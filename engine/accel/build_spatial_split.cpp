@@ -12,12 +12,13 @@ ClippedTriangle clippedTriangle(const PrimitiveRef& ref, const BuildInput& input
     return clip(whole, input.bounds[ref.id()], toAabb(ref.box()));
 }
 
-/// The corners of that, in float. Most references are whole triangles.
+/// The corners of that, in float; none of a primitive that is no triangle. Most references are whole triangles.
 class Outline {
 public:
     Outline(const PrimitiveRef& ref, const BuildInput& input) {
+        const glm::uvec3& triangle = input.triangles[ref.id()];
+        if (triangle == kBoxAlone) return;
         if (toAabb(ref.box()).contains(input.bounds[ref.id()])) {
-            const glm::uvec3& triangle = input.triangles[ref.id()];
             for (int i = 0; i < 3; ++i) corners_[size_++] = toFloat4(input.positions[triangle[i]]);
         } else {
             const ClippedTriangle clipped = clippedTriangle(ref, input);
@@ -65,9 +66,20 @@ struct SpatialBins {
             }
         }
     }
+    void slice(const Box4& box, int axis, int first, int last) {
+        for (int bin = first; bin <= last; ++bin) {
+            Box4 part = box;
+            if (bin > first) part.lo[axis] = std::clamp(plane(bin, axis), box.lo[axis], box.hi[axis]);
+            if (bin < last) part.hi[axis] = std::clamp(plane(bin + 1, axis), box.lo[axis], box.hi[axis]);
+            bins.grow(bin, axis, part);
+        }
+    }
     /// The part of a polygon in a bin is around its corners there and the points where its edges leave the bin.
     void chop(const Box4& box, std::span<const Float4> corners, int axis, int first, int last) {
-        if (corners.empty()) return;
+        if (corners.empty()) {
+            slice(box, axis, first, last);
+            return;
+        }
         const auto grow = [&](int bin, Float4 point) {
             const Float4 inside = minimum(maximum(point, box.lo), box.hi);
             bins.grow(bin, axis, {inside, inside});

@@ -50,7 +50,10 @@ Buffer::Buffer(const Device& device, const std::string& name, size_t sizeBytes, 
     vkGetBufferMemoryRequirements(device.get(), buffer, &requirements);
     const int32_t type = memoryTypeFor(device, requirements.memoryTypeBits, place);
     if (type < 0) throw Error(name + ": the device has no memory of the kind that this needs", ExitCode::internalError);
+    VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0) allocate.pNext = &flags;
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = static_cast<uint32_t>(type);
     VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -65,11 +68,17 @@ Buffer::Buffer(const Device& device, const std::string& name, size_t sizeBytes, 
     mapped_ = static_cast<std::byte*>(pointer);
 }
 
-void upload(Device& device, const Buffer& buffer, std::span<const std::byte> bytes) {
-    if (bytes.size() > buffer.sizeBytes()) throw Error("an upload is larger than its buffer", ExitCode::internalError);
+VkDeviceAddress addressOf(const Device& device, const Buffer& buffer) {
+    VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+    info.buffer = buffer.get();
+    return vkGetBufferDeviceAddress(device.get(), &info);
+}
+
+void upload(Device& device, const Buffer& buffer, std::span<const std::byte> bytes, size_t offset) {
+    if (offset + bytes.size() > buffer.sizeBytes()) throw Error("an upload is larger than its buffer", ExitCode::internalError);
     if (bytes.empty()) return;
     if (buffer.mapped() != nullptr) {
-        std::memcpy(buffer.mapped(), bytes.data(), bytes.size());
+        std::memcpy(buffer.mapped() + offset, bytes.data(), bytes.size());
         return;
     }
     const Buffer staging(device, "staging", std::min(bytes.size(), kStagingBytes), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -78,7 +87,7 @@ void upload(Device& device, const Buffer& buffer, std::span<const std::byte> byt
         const size_t size = std::min(kStagingBytes, bytes.size() - at);
         std::memcpy(staging.mapped(), bytes.data() + at, size);
         device.run("upload", [&](VkCommandBuffer commands) {
-            const VkBufferCopy region{0, at, size};
+            const VkBufferCopy region{0, offset + at, size};
             vkCmdCopyBuffer(commands, staging.get(), buffer.get(), 1, &region);
         });
     }
@@ -109,14 +118,13 @@ Buffer makeDeviceBuffer(Device& device, const std::string& name, std::span<const
 }
 
 TexelBuffer makeTexelBuffer(Device& device, const std::string& name, std::span<const std::byte> data, VkFormat format,
-                            size_t bytesPerElement) {
+                            size_t bytesPerElement, VkBufferUsageFlags usage) {
     if (data.size() / bytesPerElement > device.limits().maxTexelBufferElements)
         throw Error(name + ": " + std::to_string(data.size() / bytesPerElement) + " elements, but " +
                     device.description().name + " addresses at most " +
                     std::to_string(device.limits().maxTexelBufferElements) + "; use a smaller scene");
     TexelBuffer result;
-    result.buffer = makeDeviceBuffer(device, name, data,
-                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    result.buffer = makeDeviceBuffer(device, name, data, usage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     info.buffer = result.buffer.get();
     info.format = format;

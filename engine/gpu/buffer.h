@@ -37,8 +37,11 @@ private:
     std::byte* mapped_ = nullptr;
 };
 
-/// Writes `bytes` to the start of the buffer, through a staging buffer where the host does not see it.
-void upload(Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
+/// Of a buffer with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT, on a device that traces rays.
+VkDeviceAddress addressOf(const Device& device, const Buffer& buffer);
+
+/// Writes `bytes` to the buffer from `offset` on, through a staging buffer where the host does not see it.
+void upload(Device& device, const Buffer& buffer, std::span<const std::byte> bytes, size_t offset = 0);
 
 /// Copies the first `bytes.size()` bytes of the buffer to the host.
 void download(Device& device, const Buffer& buffer, std::span<std::byte> bytes);
@@ -52,8 +55,8 @@ struct TexelBuffer {
     BufferViewHandle view;
 };
 
-/// Throws Error where `data` has more elements than the device can address.
+/// Throws Error where `data` has more elements than the device can address. `usage`: beyond that of texels.
 TexelBuffer makeTexelBuffer(Device& device, const std::string& name, std::span<const std::byte> data, VkFormat format,
-                            size_t bytesPerElement);
+                            size_t bytesPerElement, VkBufferUsageFlags usage = 0);
 
 }  // namespace raylab

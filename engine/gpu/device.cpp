@@ -145,8 +145,14 @@ void Device::createDevice() {
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    const RayTracingRequest request(description_.rayTracing);
+    info.pNext = request.features();
+    info.enabledExtensionCount = static_cast<uint32_t>(request.extensions().size());
+    info.ppEnabledExtensionNames = request.extensions().data();
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
+    if (description_.rayTracing.hasStructures())
+        rayTracing_ = loadRayTracing(physical_, device_, description_.rayTracing);
 }
 
 void Device::createCommandObjects() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/gpu/handle.h"
+#include "engine/gpu/ray_tracing.h"
 
 namespace raylab {
 
@@ -22,7 +23,8 @@ struct DeviceDescription {
     uint64_t memoryBytes = 0;            ///< largest device-local heap
     uint64_t maxStorageBufferRange = 0;  ///< bytes
     uint64_t maxTexelBufferElements = 0;
-    std::string unsuitable;  ///< why raylab cannot use it; empty where it can
+    std::string unsuitable;      ///< why raylab cannot use it; empty where it can
+    RayTracingOffer rayTracing;  ///< of hardware traversal
 };
 
 struct DeviceOptions {
@@ -36,7 +38,7 @@ std::string versionText(uint32_t apiVersion);
 std::vector<DeviceDescription> listDevices();
 
 /// Instance, device, one queue that computes, and the immediate way to run commands on it. Needs Vulkan 1.2 and neither
-/// an extension nor an optional feature. Not thread-safe.
+/// an extension nor an optional feature; what there is of hardware traversal is enabled. Not thread-safe.
 class Device {
 public:
     /// Throws Error (exit code 3) where no device is suitable or the selector matches none.
@@ -48,6 +50,8 @@ public:
     VkDevice get() const { return device_; }
     const DeviceDescription& description() const { return description_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+    /// Only where description().rayTracing.hasStructures().
+    const RayTracing& rayTracing() const { return rayTracing_; }
     uint64_t maxAllocationBytes() const { return maxAllocationBytes_; }
     VkPipelineCache pipelineCache() const { return pipelineCache_.get(); }
 
@@ -87,6 +91,7 @@ private:
     bool hasTimestamps_ = false;
     bool debugUtils_ = false;
     DeviceDescription description_;
+    RayTracing rayTracing_;
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     uint64_t maxAllocationBytes_ = 0;

@@ -147,6 +147,10 @@ DeviceDescription describe(VkPhysicalDevice device, uint32_t index) {
         description.unsuitable = "offers Vulkan " + versionText(base.apiVersion) + ", raylab needs 1.2";
     else if (computeQueueFamily(device, nullptr) < 0)
         description.unsuitable = "has no queue that computes";
+    if (base.apiVersion >= VK_API_VERSION_1_2)
+        description.rayTracing = rayTracingOffer(device);
+    else
+        description.rayTracing = {"Vulkan 1.2", "Vulkan 1.2"};
     return description;
 }
 

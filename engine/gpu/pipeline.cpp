@@ -1,18 +1,17 @@
 #include "engine/gpu/pipeline.h"
 
-#include <cstring>
-
-#include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "engine/gpu/check.h"
+#include "engine/gpu/shader_module.h"
 
 namespace raylab {
 
-KernelLayout::KernelLayout(const Device& device, std::span<const BindingInfo> bindings, uint32_t pushBytes) {
+KernelLayout::KernelLayout(const Device& device, std::span<const BindingInfo> bindings, uint32_t pushBytes_,
+                           VkShaderStageFlags stages_)
+    : stages(stages_), pushBytes(pushBytes_) {
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
     std::vector<VkDescriptorPoolSize> sizes;
     for (const BindingInfo& info : bindings) {
-        layoutBindings.push_back({info.binding, info.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        layoutBindings.push_back({info.binding, info.type, 1, stages, nullptr});
         sizes.push_back({info.type, 1});
     }
     VkDescriptorSetLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
@@ -22,7 +21,7 @@ KernelLayout::KernelLayout(const Device& device, std::span<const BindingInfo> bi
     check(vkCreateDescriptorSetLayout(device.get(), &layoutInfo, nullptr, &layoutObject), "vkCreateDescriptorSetLayout");
     setLayout = {device.get(), layoutObject};
 
-    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushBytes};
+    const VkPushConstantRange push{stages, 0, pushBytes};
     VkPipelineLayoutCreateInfo pipelineInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     pipelineInfo.setLayoutCount = 1;
     pipelineInfo.pSetLayouts = &layoutObject;
@@ -69,39 +68,49 @@ void bindTexelView(const Device& device, const KernelLayout& layout, uint32_t bi
     vkUpdateDescriptorSets(device.get(), 1, &write, 0, nullptr);
 }
 
-PipelineHandle makeComputePipeline(const Device& device, const KernelLayout& layout, const std::filesystem::path& spirv,
-                                   std::span<const SpecConstant> constants) {
-    const std::vector<std::byte> bytes = readFile(spirv);
-    if (bytes.size() % 4 != 0) throw Error(spirv.string() + ": is not SPIR-V; reinstall raylab", ExitCode::internalError);
-    std::vector<uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), bytes.size());
-    VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    moduleInfo.codeSize = bytes.size();
-    moduleInfo.pCode = words.data();
-    VkShaderModule moduleObject = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device.get(), &moduleInfo, nullptr, &moduleObject), "vkCreateShaderModule");
-    const ShaderModuleHandle module(device.get(), moduleObject);
+void bindStructure(const Device& device, const KernelLayout& layout, uint32_t binding,
+                   VkAccelerationStructureKHR structure) {
+    VkWriteDescriptorSetAccelerationStructureKHR info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
+    info.accelerationStructureCount = 1;
+    info.pAccelerationStructures = &structure;
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.pNext = &info;
+    write.dstSet = layout.set;
+    write.dstBinding = binding;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
+    vkUpdateDescriptorSets(device.get(), 1, &write, 0, nullptr);
+}
 
-    std::vector<VkSpecializationMapEntry> entries;
-    std::vector<uint32_t> values;
-    for (const SpecConstant& constant : constants) {
-        entries.push_back({constant.id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)), sizeof(uint32_t)});
-        values.push_back(constant.value);
-    }
-    const VkSpecializationInfo specialisation{static_cast<uint32_t>(entries.size()), entries.data(),
-                                              values.size() * sizeof(uint32_t), values.data()};
+Kernel makeComputeKernel(const Device& device, const KernelLayout& layout, const std::filesystem::path& spirv,
+                         std::span<const SpecConstant> constants) {
+    const ShaderModuleHandle module = loadModule(device, spirv);
+    const Specialisation specialisation(constants);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = moduleObject;
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &specialisation;
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), specialisation);
     info.layout = layout.pipelineLayout.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device.get(), device.pipelineCache(), 1, &info, nullptr, &pipeline),
           ("vkCreateComputePipelines " + spirv.filename().string()).c_str());
     device.setName(pipeline, VK_OBJECT_TYPE_PIPELINE, spirv.filename().string());
-    return {device.get(), pipeline};
+    Kernel kernel;
+    kernel.pipeline = {device.get(), pipeline};
+    return kernel;
+}
+
+void launch(const Device& device, VkCommandBuffer commands, const KernelLayout& layout, const Kernel& kernel,
+            std::span<const uint32_t> dynamicOffsets, const void* push, uint32_t groups) {
+    vkCmdBindPipeline(commands, kernel.bindPoint, kernel.pipeline.get());
+    vkCmdBindDescriptorSets(commands, kernel.bindPoint, layout.pipelineLayout.get(), 0, 1, &layout.set,
+                            static_cast<uint32_t>(dynamicOffsets.size()), dynamicOffsets.data());
+    vkCmdPushConstants(commands, layout.pipelineLayout.get(), layout.stages, 0, layout.pushBytes, push);
+    if (kernel.bindPoint == VK_PIPELINE_BIND_POINT_COMPUTE) {
+        vkCmdDispatch(commands, groups, 1, 1);
+        return;
+    }
+    const VkStridedDeviceAddressRegionKHR noCallables{};
+    device.rayTracing().traceRays(commands, &kernel.raygen, &kernel.miss, &kernel.hit, &noCallables,
+                                  groups * kernel.lanesPerGroup, 1, 1);
 }
 
 }  // namespace raylab

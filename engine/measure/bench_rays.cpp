@@ -8,6 +8,7 @@
 
 #include "engine/render/camera.h"
 #include "engine/scene/bounds.h"
+#include "engine/scene/quadric.h"
 #include "shaders/shared/bindings.h"
 
 namespace raylab {
@@ -80,9 +81,15 @@ std::vector<shared::RayData> primaryRays(const BenchView& view) {
     return rays;
 }
 
-glm::vec3 geometricNormal(const Scene& scene, const shared::HitData& hit) {
+glm::vec3 geometricNormal(const Scene& scene, const shared::HitData& hit, const glm::vec3& point) {
     const Instance& instance = scene.instances[hit.instance];
     const Mesh& mesh = scene.meshes[instance.mesh];
+    if (!mesh.quadrics.empty()) {
+        const glm::dmat4 toObject = glm::inverse(glm::dmat4(instance.objectToWorld));
+        const glm::dvec3 local(toObject * glm::dvec4(point, 1.0));
+        return glm::vec3(glm::normalize(glm::transpose(glm::dmat3(toObject)) *
+                                        quadricGradient(mesh.quadrics[hit.primitive], local)));
+    }
     const glm::uvec3 t = mesh.triangles[hit.primitive];
     const auto world = [&](uint32_t v) {
         return glm::dvec3(glm::dmat4(instance.objectToWorld) * glm::dvec4(mesh.positions[v], 1.0));
@@ -98,8 +105,9 @@ std::vector<SurfacePoint> surfacePoints(const Scene& scene, std::span<const shar
     for (size_t i = 0; i < rays.size(); ++i) {
         if (hits[i].t < 0.0f) continue;
         const glm::vec3 incoming = glm::normalize(rays[i].direction);
-        const glm::vec3 normal = geometricNormal(scene, hits[i]);
-        points.push_back({rays[i].origin + hits[i].t * rays[i].direction,
+        const glm::vec3 point = rays[i].origin + hits[i].t * rays[i].direction;
+        const glm::vec3 normal = geometricNormal(scene, hits[i], point);
+        points.push_back({point,
                           glm::dot(normal, incoming) > 0.0f ? -normal : normal, incoming, pixels[i]});
     }
     return points;
@@ -138,6 +146,22 @@ BenchLight defaultBenchLight(const Scene& scene) {
     const glm::vec3 extent = bounds.hi - bounds.lo;
     const glm::vec3 centre = 0.5f * (bounds.lo + bounds.hi);
     return {{centre.x, bounds.hi.y - 0.01f * extent.y, centre.z}, 0.125f * extent.x, 0.125f * extent.z};
+}
+
+std::vector<PixelRays> makePathRays(RayCaster& caster, const Scene& scene, const BenchView& view, int bounces) {
+    const std::vector<glm::uvec2> order = pixelOrder(view.width, view.height);
+    std::vector<uint32_t> places(order.size());  // in that order, which random numbers depend on
+    for (uint32_t i = 0; i < places.size(); ++i) places[i] = i;
+    std::vector<PixelRays> paths;
+    std::vector<shared::RayData> rays = primaryRays(view);
+    for (int number = 0;; ++number) {
+        PixelRays& path = paths.emplace_back(PixelRays{rays, {}});
+        for (const uint32_t place : places) path.pixels.push_back(order[place].y * view.width + order[place].x);
+        if (number == bounces) return paths;
+        const std::vector<SurfacePoint> points = surfacePoints(scene, rays, caster.closest(rays), places);
+        rays = raysFrom(points, [&](const SurfacePoint& p) { return bounce(p, view.seed, static_cast<uint32_t>(number + 1)); });
+        places = pixelsOf(points);
+    }
 }
 
 std::vector<RaySet> makeBenchRays(RayCaster& caster, const Scene& scene, const BenchView& view) {

@@ -51,6 +51,15 @@ struct RaySet {
     std::vector<shared::RayData> rays;
 };
 
+/// Closest-hit rays and the pixels they belong to, y * width + x.
+struct PixelRays {
+    std::vector<shared::RayData> rays;
+    std::vector<uint32_t> pixels;
+};
+
+/// The rays of paths: [0] primary, [i] the i-th diffuse bounce of those that are still in the scene.
+std::vector<PixelRays> makePathRays(RayCaster& caster, const Scene& scene, const BenchView& view, int bounces);
+
 /// The light of a view where the user names none: an eighth of the scene's extents, above its centre, just below its
 /// top.
 BenchLight defaultBenchLight(const Scene& scene);

@@ -24,19 +24,19 @@ size_t countDuplicates(const Bvh& bvh) {
     return duplicates;
 }
 
-/// The vertices of a tree's triangles by their id in it. Those that it left out stay degenerate.
+/// The vertices of a tree's triangles by their id in it. Quadrics and what it left out have no surface here.
 struct TreeMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
 };
 
 /// `order`: the triangle of each slot, which a layout may have changed.
-TreeMesh treeMesh(const TraceData& data, const TriangleTree& tree, const std::vector<uint32_t>& order) {
+TreeMesh treeMesh(const TraceData& data, const PrimitiveTree& tree, const std::vector<uint32_t>& order) {
     TreeMesh mesh;
-    mesh.positions.push_back(glm::vec3(0.0f));
-    mesh.triangles.resize(size_t{*std::ranges::max_element(order)} + 1, glm::uvec3(0));
-    for (uint32_t slot = 0; slot < tree.triangleCount; ++slot) {
-        const shared::TraceTriangle& t = data.triangles[tree.firstTriangle + slot];
+    mesh.triangles.resize(size_t{*std::ranges::max_element(order)} + 1, kBoxAlone);
+    for (uint32_t slot = 0; slot < tree.slotCount; ++slot) {
+        const shared::TraceTriangle& t = data.triangles[tree.firstSlot + slot];
+        if ((t.instance & shared::kSlotIsQuadric) != 0) continue;
         const auto base = static_cast<uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), {t.p0, t.p1, t.p2});
         mesh.triangles[order[slot]] = {base, base + 1, base + 2};
@@ -44,7 +44,7 @@ TreeMesh treeMesh(const TraceData& data, const TriangleTree& tree, const std::ve
     return mesh;
 }
 
-void measureSlowly(const TraceData& data, const TriangleTree& tree, const TraceConfig& config, BvhReport& report) {
+void measureSlowly(const TraceData& data, const PrimitiveTree& tree, const TraceConfig& config, BvhReport& report) {
     const Stopwatch watch;
     const FlatTree flat = flatten(config.layout, tree.bvh, 0, 0);
     report.flattenMs = watch.seconds() * 1e3;
@@ -62,7 +62,7 @@ void measureMemory(const TraceData& data, const TraceConfig& config, BvhReport& 
 /// The SAH of the tree below each primitive of the upper tree. A layout may have changed the order of the instances.
 std::vector<double> sahBelowUpper(const TraceData& data, const TraceConfig& config) {
     std::unordered_map<uint32_t, double> sahOfRoot;
-    for (const TriangleTree& tree : data.trees) sahOfRoot[tree.root] = measureQuality(tree.bvh, config.bvh).sah;
+    for (const PrimitiveTree& tree : data.trees) sahOfRoot[tree.root] = measureQuality(tree.bvh, config.bvh).sah;
     const std::vector<uint32_t> order = flatten(config.layout, data.upper, 0, 0).order;
     std::vector<double> below(size_t{*std::ranges::max_element(order)} + 1, 0.0);
     for (size_t slot = 0; slot < order.size(); ++slot) below[order[slot]] = sahOfRoot.at(data.instances[slot].root);
@@ -96,15 +96,15 @@ BvhReport measureBvh(const Scene& scene, const TraceConfig& config, BvhDetail de
     report.trees = data.trees.size();
     report.nodes = data.upper.nodes.size();
     report.flatNodes = data.nodeCount;
-    report.skipped = data.skippedTriangles;
-    for (const TriangleTree& tree : data.trees) {
+    report.skipped = data.skipped;
+    for (const PrimitiveTree& tree : data.trees) {
         report.depth = std::max(report.depth, static_cast<int>(tree.bvh.depth));
         report.nodes += tree.bvh.nodes.size();
         report.duplicates += countDuplicates(tree.bvh);
     }
     report.depth += static_cast<int>(data.upper.depth);
     measureMemory(data, config, report);
-    const auto largest = std::ranges::max_element(data.trees, {}, &TriangleTree::triangleCount);
+    const auto largest = std::ranges::max_element(data.trees, {}, &PrimitiveTree::slotCount);
     if (largest == data.trees.end()) return report;
     report.largest = measureQuality(largest->bvh, config.bvh);
     if (detail == BvhDetail::full) measureSlowly(data, *largest, config, report);

@@ -18,7 +18,9 @@ public:
           caster_(device, scene, settings_) {}
 
     SubjectLabel label() const override {
-        return {settings_.tracer, settings_.layout, settings_.triangle, settings_.builder, variation_};
+        const TracerInfo& tracer = caster_.prepared().tracer->info();
+        if (tracer.driverStructures) return {std::string(tracer.name), "", "", settings_.builder, variation_};
+        return {std::string(tracer.name), settings_.layout, settings_.triangle, settings_.builder, variation_};
     }
     TracedRays trace(const RaySet& set) override {
         const std::vector<shared::HitData> hits =
@@ -27,16 +29,16 @@ public:
         return {caster_.deviceSeconds(), static_cast<size_t>(std::count_if(hits.begin(), hits.end(), isHit))};
     }
     std::optional<RayCounters> count(const RaySet& set) override {
-        if (set.rays.empty()) return std::nullopt;
+        if (set.rays.empty() || caster_.prepared().tracer->info().driverStructures) return std::nullopt;
         constexpr size_t kGroup = 8;
-        const std::vector<shared::HitData> counts = caster_.count(set.rays, set.kind.anyHit);
+        const std::vector<shared::RayCounts> counts = caster_.count(set.rays, set.kind.anyHit).counts;
         RayCounters sum;
         double longest = 0.0;
         for (size_t first = 0; first < counts.size(); first += kGroup) {
             uint32_t most = 0;
             for (size_t i = first; i < std::min(first + kGroup, counts.size()); ++i) {
                 sum.nodes += counts[i].nodes;
-                sum.triangles += counts[i].triangles;
+                sum.triangles += counts[i].primitivesTested;
                 sum.instances += counts[i].instances;
                 most = std::max(most, counts[i].nodes);
             }

@@ -14,6 +14,7 @@ struct GeometryData {
     std::vector<shared::InstanceData> instances;
     std::vector<shared::TriangleData> triangles;  ///< of all meshes, one after another
     std::vector<shared::VertexData> vertices;
+    std::vector<shared::QuadricData> quadrics;  ///< of all meshes, one after another
 };
 
 /// Materials and textures. Level 0 of a texture is followed by its smaller levels.

@@ -18,6 +18,7 @@ constexpr TexelBinding kWords(uint32_t binding, const char* name) { return {bind
 constexpr TexelBinding kInstances = kWords(shared::kBindInstances, "instances");
 constexpr TexelBinding kTriangles = kWords(shared::kBindTriangles, "triangles");
 constexpr TexelBinding kVertices = kWords(shared::kBindVertices, "vertices");
+constexpr TexelBinding kQuadrics = kWords(shared::kBindQuadrics, "quadrics");
 constexpr TexelBinding kMaterials = kWords(shared::kBindMaterials, "materials");
 constexpr TexelBinding kTextures = kWords(shared::kBindTextures, "textures");
 constexpr TexelBinding kTexels = {shared::kBindTexels, "texels", VK_FORMAT_R32_UINT, 4};
@@ -42,6 +43,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene) {
         add(kInstances, geometry.instances);
         add(kTriangles, geometry.triangles);
         add(kVertices, geometry.vertices);
+        add(kQuadrics, geometry.quadrics);
     }
     add(kMaterials, materials.materials);
     add(kTextures, materials.textures);
@@ -60,7 +62,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene) {
 
 std::vector<BindingInfo> GpuScene::bindings() {
     std::vector<BindingInfo> infos;
-    for (const TexelBinding& b : {kInstances, kTriangles, kVertices, kMaterials, kTextures, kTexels, kEmissive, kPunctual,
+    for (const TexelBinding& b : {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kTextures, kTexels, kEmissive, kPunctual,
                                   kEnvironment, kAlias})
         infos.push_back({b.binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
     return infos;

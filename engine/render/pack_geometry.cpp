@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/render/gpu_data.h"
+#include "engine/scene/quadric.h"
 
 namespace raylab {
 namespace {
@@ -34,22 +35,37 @@ shared::VertexData packVertex(const Mesh& mesh, size_t i) {
     return vertex;
 }
 
+shared::QuadricData packQuadric(const Quadric& quadric) {
+    const QuadricForm form = quadricForm(quadric.kind);
+    shared::QuadricData data{};
+    data.radii = quadric.radii;
+    data.zz = form.zz;
+    data.z = form.z;
+    data.constant = form.constant;
+    data.height = (quadric.clipHigh - quadric.clipLow) / quadric.radii.z;
+    data.isEllipsoid = quadric.kind == QuadricKind::ellipsoid ? 1 : 0;
+    return data;
+}
+
 struct MeshPlace {
     uint32_t firstVertex = 0;
     uint32_t firstTriangle = 0;
+    uint32_t firstQuadric = 0;
 };
 
 std::vector<MeshPlace> placeMeshes(const Scene& scene, MeshPlace& end) {
     std::vector<MeshPlace> places;
-    uint64_t vertices = 0, triangles = 0;
+    uint64_t vertices = 0, triangles = 0, quadrics = 0;
     for (const Mesh& mesh : scene.meshes) {
-        places.push_back({static_cast<uint32_t>(vertices), static_cast<uint32_t>(triangles)});
+        places.push_back({static_cast<uint32_t>(vertices), static_cast<uint32_t>(triangles),
+                          static_cast<uint32_t>(quadrics)});
         vertices += mesh.positions.size();
         triangles += mesh.triangles.size();
-        if (vertices > UINT32_MAX / 2 || triangles > UINT32_MAX / 2)
-            throw Error(scene.name + ": more than two thousand million vertices or triangles; split the scene");
+        quadrics += mesh.quadrics.size();
+        if (std::max({vertices, triangles, quadrics}) > UINT32_MAX / 2)
+            throw Error(scene.name + ": more than two thousand million vertices or primitives; split the scene");
     }
-    end = {static_cast<uint32_t>(vertices), static_cast<uint32_t>(triangles)};
+    end = {static_cast<uint32_t>(vertices), static_cast<uint32_t>(triangles), static_cast<uint32_t>(quadrics)};
     return places;
 }
 
@@ -60,7 +76,8 @@ shared::InstanceData packInstance(const Scene& scene, const Instance& instance, 
     data.objectToWorld0 = rows[0];
     data.objectToWorld1 = rows[1];
     data.objectToWorld2 = rows[2];
-    data.firstTriangle = place.firstTriangle;
+    data.firstPrimitive = mesh.quadrics.empty() ? place.firstTriangle : place.firstQuadric;
+    if (!mesh.quadrics.empty()) data.flags |= shared::kInstanceQuadric;
     data.material = mesh.material;
     if (!mesh.normals.empty()) data.flags |= shared::kInstanceSmooth;
     if (glm::determinant(glm::dmat3(instance.objectToWorld)) < 0.0) data.flags |= shared::kInstanceMirrored;
@@ -84,6 +101,7 @@ GeometryData packGeometry(const Scene& scene) {
     const std::vector<MeshPlace> places = placeMeshes(scene, end);
     data.vertices.resize(end.firstVertex);
     data.triangles.resize(end.firstTriangle);
+    data.quadrics.resize(end.firstQuadric);
     tbb::parallel_for(size_t{0}, scene.meshes.size(), [&](size_t m) {
         const Mesh& mesh = scene.meshes[m];
         const MeshPlace place = places[m];
@@ -92,6 +110,8 @@ GeometryData packGeometry(const Scene& scene) {
             const glm::uvec3 t = mesh.triangles[i] + place.firstVertex;
             data.triangles[place.firstTriangle + i] = {t.x, t.y, t.z, 0};
         }
+        for (size_t i = 0; i < mesh.quadrics.size(); ++i)
+            data.quadrics[place.firstQuadric + i] = packQuadric(mesh.quadrics[i]);
     });
     for (const Instance& instance : scene.instances)
         data.instances.push_back(packInstance(scene, instance, places[instance.mesh]));

@@ -1,6 +1,7 @@
 #include "engine/render/prepared_scene.h"
 
-#include "engine/core/file.h"
+#include "engine/core/error.h"
+#include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
 #include "engine/render/camera.h"
 #include "engine/render/device_defaults.h"
@@ -8,19 +9,49 @@
 
 namespace raylab {
 
+namespace {
+
+void buildWith(std::string_view tracer, Device& device, const Scene& scene, const RenderSettings& settings,
+               PreparedScene& prepared) {
+    prepared.tracer = makeTracer(tracer);
+    prepared.traceConfig = prepared.tracer->adapt(traceConfig(settings));
+    prepared.needs = analyseNeeds(scene, treePlanConfig(prepared.traceConfig));
+    prepared.kernelNeeds = settings.needs == "full" ? shared::kNeedAll : prepared.needs.mask;
+    prepared.tracer->build(device, scene, prepared.traceConfig);
+}
+
+void buildTracer(Device& device, const Scene& scene, const RenderSettings& settings, PreparedScene& prepared) {
+    const std::string missing = missingForTracer(settings.tracer, device.description());
+    if (!missing.empty())
+        throw Error("--tracer " + settings.tracer + ": " + device.description().name + " lacks " + missing +
+                        "; use --tracer software, or another device (raylab devices)",
+                    ExitCode::noDevice);
+    try {
+        buildWith(settings.tracer, device, scene, settings, prepared);
+    } catch (const Error& error) {
+        if (settings.tracer == kFallbackTracer) throw;
+        logWarning("--tracer " + settings.tracer + " failed (" + error.what() + "); the software tracer takes over");
+        buildWith(kFallbackTracer, device, scene, settings, prepared);
+    }
+}
+
+}  // namespace
+
 PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings) {
     PreparedScene prepared;
     prepared.camera = chooseCamera(scene, settings.camera);
-    prepared.tracer = makeTracer(settings.tracer);
-    const TraceConfig config =
-        prepared.tracer->adapt(traceConfig(resolveForDevice(settings, device.description())));
-    prepared.needs = analyseNeeds(scene, treePlanConfig(config));
-    prepared.kernelNeeds = settings.needs == "full" ? shared::kNeedAll : prepared.needs.mask;
-    prepared.tracer->build(device, scene, config);
+    buildTracer(device, scene, resolveForDevice(settings, device.description()), prepared);
     Stopwatch watch;
     prepared.gpu = std::make_unique<GpuScene>(device, scene);
     prepared.packSeconds = watch.seconds();
     return prepared;
+}
+
+void updateScene(Device& device, const Scene& scene, const SceneChange& change, PreparedScene& prepared) {
+    prepared.tracer->update(device, scene, prepared.traceConfig, change);
+    prepared.gpu = std::make_unique<GpuScene>(device, scene);
+    prepared.needs = analyseNeeds(scene, treePlanConfig(prepared.traceConfig));
+    prepared.kernelNeeds |= prepared.needs.mask;  // what is there can stay
 }
 
 std::vector<BindingInfo> sceneBindings(const PreparedScene& prepared) {
@@ -46,11 +77,10 @@ shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSetting
     return frame;
 }
 
-PipelineHandle makeSceneKernel(const Device& device, const PreparedScene& prepared, const KernelLayout& layout,
-                               std::string_view spirv, std::vector<SpecConstant> constants) {
-    for (const SpecConstant& constant : prepared.tracer->constants()) constants.push_back(constant);
+Kernel makeSceneKernel(Device& device, const PreparedScene& prepared, const KernelLayout& layout, KernelKind kind,
+                       std::vector<SpecConstant> constants) {
     constants.push_back({shared::kSpecNeeds, prepared.kernelNeeds});
-    return makeComputePipeline(device, layout, dataFolder("shaders") / spirv, constants);
+    return prepared.tracer->makeKernel(device, layout, kind, std::move(constants));
 }
 
 }  // namespace raylab

@@ -9,6 +9,8 @@
 
 namespace raylab {
 
+constexpr std::string_view kFallbackTracer = "software";
+
 /// A scene that is ready for kernels: on the device, with the tracer's structures built.
 struct PreparedScene {
     SceneNeeds needs;
@@ -16,11 +18,18 @@ struct PreparedScene {
     std::unique_ptr<GpuScene> gpu;
     std::unique_ptr<Tracer> tracer;
     Camera camera;
+    TraceConfig traceConfig;  ///< adapted to the tracer
     double packSeconds = 0.0;  ///< packing and uploading of what is not the tracer's
 };
 
-/// The environment must be settled (settleEnvironment). Throws Error as its parts do.
+/// The environment must be settled (settleEnvironment). Throws Error as its parts do, with ExitCode::noDevice where the device
+/// lacks what the tracer needs. A tracer over the driver's structures that fails to build them is replaced by
+/// kFallbackTracer, with a warning.
 PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings);
+
+/// Takes what is on the device up to a change of the scene, which must have been prepared with trees = mesh; kernels and
+/// bindings are due again (bindScene, makeFrame). Throws Error as its parts do.
+void updateScene(Device& device, const Scene& scene, const SceneChange& change, PreparedScene& prepared);
 
 /// Bindings that every kernel over a scene has; `prepared` fills them.
 std::vector<BindingInfo> sceneBindings(const PreparedScene& prepared);
@@ -29,8 +38,8 @@ void bindScene(const Device& device, const PreparedScene& prepared, const Kernel
 /// Frame parameters of the scene, the camera and the settings.
 shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSettings& settings);
 
-/// A kernel from the shaders folder, specialised to the prepared scene, with constants of its own.
-PipelineHandle makeSceneKernel(const Device& device, const PreparedScene& prepared, const KernelLayout& layout,
-                               std::string_view spirv, std::vector<SpecConstant> constants);
+/// A kernel of the tracer, specialised to the prepared scene, with constants of its own.
+Kernel makeSceneKernel(Device& device, const PreparedScene& prepared, const KernelLayout& layout, KernelKind kind,
+                       std::vector<SpecConstant> constants);
 
 }  // namespace raylab

@@ -7,6 +7,11 @@
 
 namespace raylab {
 
+struct CountedHits {
+    std::vector<shared::HitData> hits;
+    std::vector<shared::RayCounts> counts;
+};
+
 /// Traces lists of rays through a prepared scene by its tracer: the same traversal text that integrators run on.
 class RayCaster {
 public:
@@ -15,30 +20,35 @@ public:
 
     /// Closest hits; t is negative where there is none.
     std::vector<shared::HitData> closest(std::span<const shared::RayData> rays) {
-        return trace(pipeline_, rays, false);
+        return trace(kernel_, rays, false);
     }
     /// t is 1 where something lies between tMin and tMax, negative where not.
     std::vector<shared::HitData> occluded(std::span<const shared::RayData> rays) {
-        return trace(pipeline_, rays, true);
+        return trace(kernel_, rays, true);
     }
-    /// Either of the two by a kernel that counts nodes, triangles and instances. `deviceSeconds` is not of the usual
-    /// kernel then.
-    std::vector<shared::HitData> count(std::span<const shared::RayData> rays, bool anyHit);
+    /// Either of the two by a kernel that counts. `deviceSeconds` is not of the usual kernel then.
+    CountedHits count(std::span<const shared::RayData> rays, bool anyHit);
+    /// Takes the scene on the device up to a change of it: updateScene(). The caster must have been made with
+    /// trees = mesh.
+    void update(const Scene& scene, const SceneChange& change);
     /// The device's time for the last call, seconds.
     double deviceSeconds() const { return deviceSeconds_; }
     const PreparedScene& prepared() const { return prepared_; }
 
 private:
-    std::vector<shared::HitData> trace(const PipelineHandle& kernel, std::span<const shared::RayData> rays,
-                                       bool anyHit);
-    PipelineHandle makeKernel(bool counting) const;
+    /// `counts`: as many as rays, or none.
+    std::vector<shared::HitData> trace(const Kernel& kernel, std::span<const shared::RayData> rays, bool anyHit,
+                                       std::span<shared::RayCounts> counts = {});
+    Kernel makeKernel(bool counting) const;
+    void bindAll();
 
     Device& device_;
+    RenderSettings settings_;
     PreparedScene prepared_;
     Buffer frameBuffer_;
     KernelLayout layout_;
-    PipelineHandle pipeline_;
-    PipelineHandle countingPipeline_;  ///< made when it is first asked for
+    Kernel kernel_;
+    Kernel countingKernel_;  ///< made when it is first asked for
     size_t batch_;
     double deviceSeconds_ = 0.0;
 };

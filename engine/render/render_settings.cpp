@@ -38,7 +38,8 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"intersection-cost", &S::intersectionCost, "", "of a triangle, for the SAH, in the same unit", 1e-6, 1e6},
         {"spatial-budget", &S::spatialBudget, "", "duplicates that the spatial builder may make, as a part of the triangles", 0, kMaxSpatialBudget},
         {"reinsertion", &S::reinsertion, "rounds", "of tree optimisation after the build at most", 0, 1e4},
-        {"flatten-limit", &S::flattenLimit, "triangles", "that a scene may show and still be one tree; beyond: a tree a mesh, and one over instances", 0, 1e12},
+        {"trees", &S::trees, "", "merged: one tree in world space as far as flatten-limit allows; mesh: one a mesh, and one over instances, which can be moved", 0, 0, {"merged", "mesh"}},
+        {"flatten-limit", &S::flattenLimit, "triangles", "that a scene may show and still be one merged tree; beyond: a tree for each mesh that is shown more than once", 0, 1e12},
         {"bvh-cache", &S::bvhCache, "", "keep trees on disk, in $XDG_CACHE_HOME/raylab/bvh, and take them from there"},
         {"needs", &S::needs, "", "what the kernel contains: what the scene needs, or everything", 0, 0, {"scene", "full"}},
         {"camera", &S::camera, "", "number or name of a camera of the scene, or px,py,pz,tx,ty,tz,fov: position, target, vertical degrees"},
@@ -68,6 +69,7 @@ TraceConfig traceConfig(const RenderSettings& settings) {
     config.bvh.intersectionCost = static_cast<float>(settings.intersectionCost);
     config.bvh.spatialBudget = static_cast<float>(settings.spatialBudget);
     config.reinsertionPasses = static_cast<int>(settings.reinsertion);
+    config.trees = settings.trees == "mesh" ? Trees::mesh : Trees::merged;
     config.flattenLimit = static_cast<size_t>(settings.flattenLimit);
     config.cache = settings.bvhCache;
     return config;

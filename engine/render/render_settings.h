@@ -33,6 +33,7 @@ struct RenderSettings {
     double intersectionCost = double{BvhConfig{}.intersectionCost};
     double spatialBudget = double{BvhConfig{}.spatialBudget};
     int64_t reinsertion = 0;
+    std::string trees = "merged";
     int64_t flattenLimit = static_cast<int64_t>(TreePlanConfig{}.flattenLimit);
     bool bvhCache = false;
     std::string needs = "scene";

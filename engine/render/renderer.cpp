@@ -23,7 +23,7 @@ constexpr BindingInfo kFilmBinding{shared::kBindFilm, VK_DESCRIPTOR_TYPE_STORAGE
 KernelLayout makeLayout(const Device& device, const PreparedScene& prepared) {
     std::vector<BindingInfo> bindings = sceneBindings(prepared);
     bindings.push_back(kFilmBinding);
-    return KernelLayout(device, bindings, sizeof(shared::RenderPush));
+    return KernelLayout(device, bindings, sizeof(shared::RenderPush), prepared.tracer->stages());
 }
 
 }  // namespace
@@ -44,8 +44,8 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     bindBuffer(device, layout_, kFilmBinding, film_.buffer(), 0, film_.bandBytes());
     times_.build = prepared_.tracer->buildSeconds();
     times_.upload = prepared_.tracer->uploadSeconds() + prepared_.packSeconds + watch.restart();
-    pipeline_ = makeSceneKernel(device, prepared_, layout_, prepared_.tracer->info().renderKernel,
-                                {{shared::kSpecIntegrator, findIntegrator(settings.integrator).id}});
+    kernel_ = makeSceneKernel(device, prepared_, layout_, KernelKind::render,
+                              {{shared::kSpecIntegrator, findIntegrator(settings.integrator).id}});
     const uint32_t tileRows = (frame_.height + shared::kTileSize - 1) / shared::kTileSize;
     blockCount_ = frame_.tilesPerRow * tileRows * kBlocksPerTile;
     dispatch(0, 1, 0, 0);  // lavapipe compiles at the first dispatch
@@ -65,11 +65,7 @@ double Renderer::dispatch(uint32_t firstBlock, uint32_t blockCount, uint32_t fir
         lanes};
     const auto offset = static_cast<uint32_t>(band * film_.bandBytes());
     const double seconds = device_.run("render", [&](VkCommandBuffer commands) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.pipelineLayout.get(), 0, 1,
-                                &layout_.set, 1, &offset);
-        vkCmdPushConstants(commands, layout_.pipelineLayout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
-        vkCmdDispatch(commands, tileCount, 1, 1);
+        launch(device_, commands, layout_, kernel_, std::span(&offset, 1), &push, tileCount);
     });
     times_.device += seconds;
     times_.longestDispatch = std::max(times_.longestDispatch, seconds);

@@ -51,7 +51,7 @@ private:
     Film film_;
     Buffer frameBuffer_;
     KernelLayout layout_;
-    PipelineHandle pipeline_;
+    Kernel kernel_;
     uint32_t blockCount_ = 0;   ///< of the image
     uint32_t nextBlock_ = 0;    ///< of the pass that is under way
     uint32_t passFirst_ = 0;    ///< first sample of it

@@ -62,7 +62,8 @@ uint32_t findTriangleTest(std::string_view name) {
 }
 
 std::array<glm::uvec4, 4> packTriangle(uint32_t test, const shared::TraceTriangle& triangle) {
-    const Vectors v = vectorsFor(test, triangle);
+    const bool isQuadric = (triangle.instance & shared::kSlotIsQuadric) != 0;
+    const Vectors v = vectorsFor(isQuadric ? shared::kTriangleMinimal : test, triangle);
     const auto word = [](const glm::vec3& xyz, uint32_t w) { return glm::uvec4(glm::floatBitsToUint(xyz), w); };
     return {word(v.a, triangle.instance), word(v.b, triangle.primitive), word(v.c, triangle.opacity), word(v.d, 0)};
 }

@@ -26,7 +26,8 @@ std::vector<std::string> triangleTestNames();
 uint32_t findTriangleTest(std::string_view name);
 
 /// The words of a triangle for test `test`, of which the first TriangleTestInfo::words count: three or four vectors (see
-/// shaders/trace/triangle.glsl), and in the last components the instance, the primitive and the opacity.
+/// shaders/trace/triangle.glsl), and in the last components the instance, the primitive and the opacity. A slot
+/// that names a quadric is the same for every test.
 std::array<glm::uvec4, 4> packTriangle(uint32_t test, const shared::TraceTriangle& triangle);
 
 }  // namespace raylab

@@ -1,11 +1,11 @@
 // Traces a list of rays: what tests, benchmarks and comparisons of traversals run.
-layout(local_size_x = kWorkgroupSize) in;
 layout(set = 0, binding = kBindRays) uniform samplerBuffer rayWords;
 layout(set = 0, binding = kBindHits, std430) writeonly buffer HitBlock { HitData hits[]; };
+layout(set = 0, binding = kBindCounts, std430) writeonly buffer CountBlock { RayCounts counts[]; };
 layout(push_constant) uniform PushBlock { RaysPush push; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = groupIndex() * kWorkgroupSize + laneIndex();
     if (i >= push.count) return;
     vec4 origin = texelFetch(rayWords, int(i * kWordsRay));
     vec4 direction = texelFetch(rayWords, int(i * kWordsRay + 1u));
@@ -24,9 +24,5 @@ void main() {
             hits[i].primitive = hit.primitive;
         }
     }
-    if (kCount != 0u) {
-        hits[i].nodes = countedNodes;
-        hits[i].triangles = countedTriangles;
-        hits[i].instances = countedInstances;
-    }
+    if (kCount != 0u) counts[i] = counted;
 }

@@ -1,8 +1,7 @@
-// A workgroup renders a tile of 8 x 8 pixels, or some of its lanes; a dispatch is a range of tiles and of samples.
+// A group of lanes renders a tile of 8 x 8 pixels, or some of them does; a dispatch is a range of tiles and of samples.
 #include "film/accumulate.glsl"
 #include "integrators/integrate.glsl"
 
-layout(local_size_x = kWorkgroupSize) in;
 layout(set = 0, binding = kBindFilm, std430) buffer FilmBlock { FilmPixel film[]; };
 layout(push_constant) uniform PushBlock { RenderPush push; };
 
@@ -13,10 +12,10 @@ uvec2 pixelInTile(uint lane) {
 }
 
 void main() {
-    if (gl_LocalInvocationID.x - push.firstLane >= push.laneCount) return;
-    uint tile = push.firstTile + gl_WorkGroupID.x;
+    if (laneIndex() - push.firstLane >= push.laneCount) return;
+    uint tile = push.firstTile + groupIndex();
     uvec2 corner = uvec2(tile % frame.tilesPerRow, tile / frame.tilesPerRow) * kTileSize;
-    uvec2 pixel = corner + pixelInTile(gl_LocalInvocationID.x);
+    uvec2 pixel = corner + pixelInTile(laneIndex());
     if (pixel.x >= frame.width || pixel.y >= frame.height) return;
     uint at = (pixel.y - push.firstRow) * frame.width + pixel.x;
     FilmPixel accumulated = film[at];

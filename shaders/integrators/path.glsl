@@ -54,7 +54,7 @@ vec3 integratePath(Ray ray, RayCone cone, Sampler random) {
         vec3 wo = -ray.direction;
         cone.width += cone.spread * hit.t;
         vec2 lightKind = sample2D(random, pair + kPairLightKind);
-        Surface s = surfaceAt(hit, wo, cone, lightKind.y);
+        Surface s = surfaceAt(ray, hit, cone, lightKind.y);
         if (needs(kNeedEmissive) && !isBlack(s.emission)) {
             float lightPdf = pdfEmissive(s.emissionWeight, hit.t * hit.t, abs(dot(s.geometricNormal, wo)));
             radiance += throughput * s.emission * (scatterPdf > 0.0 ? misWeight(scatterPdf, lightPdf) : 1.0);

@@ -19,7 +19,7 @@ vec3 integrateView(Ray ray, RayCone cone, Sampler random) {
     if (kIntegrator == kIntegratorBarycentrics)
         return vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics);
     cone.width += cone.spread * hit.t;
-    Surface s = surfaceAt(hit, -ray.direction, cone, 0.5);
+    Surface s = surfaceAt(ray, hit, cone, 0.5);
     if (kIntegrator == kIntegratorNormal) return 0.5 + 0.5 * s.normal;
     if (kIntegrator == kIntegratorUv) return vec3(fract(s.uv), 0.0);
     return s.baseColor;

@@ -17,7 +17,7 @@ const LightSample kNoLight = LightSample(vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0), 0.
 // Density with which sampleEmissive chooses a point of this surface, over solid angle. Triangles are chosen by
 // area x weight of their material, so the density over area is the weight over the total: no look-up by triangle.
 float pdfEmissive(float emissionWeight, float distanceSquared, float cosLight) {
-    return cosLight > 0.0 ? frame.shareEmissive * emissionWeight / frame.emissiveTotal * distanceSquared / cosLight : 0.0;
+    return cosLight > 0.0 && emissionWeight > 0.0 ? frame.shareEmissive * emissionWeight / frame.emissiveTotal * distanceSquared / cosLight : 0.0;
 }
 
 LightSample sampleEmissive(vec3 position, vec2 choice, vec2 u) {
@@ -43,7 +43,7 @@ LightSample sampleEmissive(vec3 position, vec2 choice, vec2 u) {
     if (pdf <= 0.0) return kNoLight;
     vec3 emission = material.emission;
     if (needs(kNeedTextures) && material.emissionTexture != kNoTextureIndex) {
-        uvec4 indices = texelFetch(triangleWords, int(loadInstanceHeader(w3.x).firstTriangle + w3.y));
+        uvec4 indices = texelFetch(triangleWords, int(loadInstanceHeader(w3.x).firstPrimitive + w3.y));
         emission *= sampleTextureSharp(material.emissionTexture, triangleUv(indices, b)).rgb;
     }
     return LightSample(direction, distance, emission / pdf, pdf);

@@ -11,7 +11,6 @@ layout(constant_id = kSpecNeeds) const uint kNeeds = kNeedAll;
 layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorPath;
 layout(constant_id = kSpecStackSize) const uint kStackSize = 64;
 layout(constant_id = kSpecCount) const uint kCount = 0;
-layout(constant_id = kSpecLayout) const uint kLayout = kLayoutBvh4b;
 layout(constant_id = kSpecTriangle) const uint kTriangleTest = kTriangleWatertight;
 
 bool needs(uint bit) { return (kNeeds & bit) != 0u; }
@@ -23,6 +22,8 @@ layout(set = 0, binding = kBindTraceTriangles) uniform usamplerBuffer traceTrian
 layout(set = 0, binding = kBindTraceInstances) uniform usamplerBuffer traceInstanceWords;
 layout(set = 0, binding = kBindInstances) uniform usamplerBuffer instanceWords;
 layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer triangleWords;
+layout(set = 0, binding = kBindQuadrics) uniform usamplerBuffer quadricWords;
+layout(set = 0, binding = kBindTraceQuadrics) uniform usamplerBuffer traceQuadricWords;
 layout(set = 0, binding = kBindVertices) uniform usamplerBuffer vertexWords;
 layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer materialWords;
 layout(set = 0, binding = kBindTextures) uniform usamplerBuffer textureWords;

@@ -3,6 +3,7 @@
 #ifndef RAYLAB_SURFACE_GLSL
 #define RAYLAB_SURFACE_GLSL
 
+#include "lib/quadric_uv.glsl"
 #include "lib/sampling.glsl"
 #include "lib/texture.glsl"
 #include "trace/common.glsl"
@@ -54,10 +55,10 @@ vec3 transformNormal(InstanceData data, vec3 n) {
 }
 
 // Bound of the error of a point computed from barycentrics and, below an instance, of taking a ray's origin back into
-// object space (Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.8). The vertices' largest
-// coordinates take the place of the weighted sum: they also bound the error of a neighbouring triangle's plane.
-vec3 positionErrorBound(InstanceData data, vec3 p0, vec3 p1, vec3 p2) {
-    vec3 largest = max(abs(p0), max(abs(p1), abs(p2)));
+// object space (Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.8). `largest`: coordinates in
+// object space. A triangle's vertices take the place of the weighted sum: they also bound the error of a neighbouring
+// triangle's plane.
+vec3 positionErrorBound(InstanceData data, vec3 largest) {
     if (!needs(kNeedTransforms)) return roundingBound(8) * largest;
     vec4 h = vec4(largest, 1.0);
     return roundingBound(14) *
@@ -90,69 +91,159 @@ vec3 reflectingNormal(vec3 n, vec3 geometric, vec3 wo) {
     return height >= 1e-2 ? n : normalize(wo + normalize(mirrored + (1e-2 - height) * geometric));
 }
 
-vec3 shadingNormal(InstanceData data, MaterialData material, uvec4 i, vec2 bary, uint n0, uint n1, uint n2, vec2 uv,
-                   float lod, float u, vec3 geometric) {
-    vec3 n = geometric;
-    if ((data.flags & kInstanceSmooth) != 0u) {
-        vec3 a = decodeNormal(n0), b = decodeNormal(n1), c = decodeNormal(n2);
-        vec3 interpolated = transformNormal(data, a + bary.x * (b - a) + bary.y * (c - a));
-        if (dot(interpolated, interpolated) > 0.0) n = normalize(interpolated);
-    }
-    if (!needs(kNeedNormalMaps) || material.normalTexture == kNoTextureIndex) return n;
-    vec4 t0 = decodeTangent(texelFetch(vertexWords, int(i.x * kWordsVertex + 1u)).z);
-    vec4 t1 = decodeTangent(texelFetch(vertexWords, int(i.y * kWordsVertex + 1u)).z);
-    vec4 t2 = decodeTangent(texelFetch(vertexWords, int(i.z * kWordsVertex + 1u)).z);
-    vec3 tangent = transformVector(data, t0.xyz + bary.x * (t1.xyz - t0.xyz) + bary.y * (t2.xyz - t0.xyz));
-    tangent -= n * dot(n, tangent);
-    if (dot(tangent, tangent) < 1e-20) return n;
-    tangent = normalize(tangent);
-    float handedness = (data.flags & kInstanceMirrored) != 0u ? -t0.w : t0.w;
-    vec3 bitangent = cross(n, tangent) * handedness;
-    vec3 m = fetchMaterialTexture(material.normalTexture, uv, lod, u).xyz * 2.0 - 1.0;
-    m.xy *= material.normalScale;
-    vec3 mapped = m.x * tangent + m.y * bitangent + m.z * n;
-    return dot(mapped, mapped) > 0.0 ? normalize(mapped) : n;
-}
+// What a hit is a point of, in world space, before its material is read.
+struct Patch {
+    vec3 position;
+    vec3 positionError;
+    float distanceError;
+    vec3 normal;   // unit, of the front
+    vec3 shading;  // unit
+    vec2 uv;
+    vec3 edge1;  // where uv moves by uvEdge1
+    vec3 edge2;
+    vec2 uvEdge1;
+    vec2 uvEdge2;
+    vec4 tangent;  // not unit; zero: none. w: handedness
+};
 
-// `wo`: unit, towards where the ray came from. `u`: rounds texture levels.
-Surface surfaceAt(Hit hit, vec3 wo, RayCone cone, float u) {
-    InstanceData data = loadInstance(hit.instance);
-    MaterialData material = loadMaterial(data.material);
-    uvec4 i = texelFetch(triangleWords, int(data.firstTriangle + hit.primitive));
+vec2 vertexUv(uint vertex) { return uintBitsToFloat(texelFetch(vertexWords, int(vertex * kWordsVertex + 1u)).xy); }
+
+vec4 vertexTangent(uint vertex) { return decodeTangent(texelFetch(vertexWords, int(vertex * kWordsVertex + 1u)).z); }
+
+Patch trianglePatch(Hit hit, InstanceData data) {
+    uvec4 i = texelFetch(triangleWords, int(data.firstPrimitive + hit.primitive));
     uvec4 v0 = texelFetch(vertexWords, int(i.x * kWordsVertex));
     uvec4 v1 = texelFetch(vertexWords, int(i.y * kWordsVertex));
     uvec4 v2 = texelFetch(vertexWords, int(i.z * kWordsVertex));
     vec3 p0 = uintBitsToFloat(v0.xyz), p1 = uintBitsToFloat(v1.xyz), p2 = uintBitsToFloat(v2.xyz);
     vec2 b = hit.barycentrics;
+    Patch p;
+    p.edge1 = p1 - p0;
+    p.edge2 = p2 - p0;
+    vec3 n = cross(p.edge1, p.edge2);
+    p.position = (1.0 - b.x - b.y) * p0 + b.x * p1 + b.y * p2;
+    p.positionError = positionErrorBound(data, max(abs(p0), max(abs(p1), abs(p2))));
+    if (needs(kNeedTransforms)) {
+        p.position = transformPoint(data, p.position);
+        n = transformNormal(data, n);
+        p.edge1 = transformVector(data, p.edge1);
+        p.edge2 = transformVector(data, p.edge2);
+    }
+    p.distanceError = roundingBound(4) * max(maxComponent(abs(p.edge1)), maxComponent(abs(p.edge2)));
+    p.normal = normalize(n);
+    p.uv = p.uvEdge1 = p.uvEdge2 = vec2(0.0);
+    if (needs(kNeedTextures)) {
+        vec2 uv0 = vertexUv(i.x);
+        p.uvEdge1 = vertexUv(i.y) - uv0;
+        p.uvEdge2 = vertexUv(i.z) - uv0;
+        p.uv = uv0 + b.x * p.uvEdge1 + b.y * p.uvEdge2;
+    }
+    p.shading = p.normal;
+    if (needs(kNeedSmoothNormals) && (data.flags & kInstanceSmooth) != 0u) {
+        vec3 n0 = decodeNormal(v0.w), n1 = decodeNormal(v1.w), n2 = decodeNormal(v2.w);
+        vec3 interpolated = transformNormal(data, n0 + b.x * (n1 - n0) + b.y * (n2 - n0));
+        if (dot(interpolated, interpolated) > 0.0) p.shading = normalize(interpolated);
+    }
+    p.tangent = vec4(0.0);
+    if (needs(kNeedNormalMaps)) {
+        vec4 t0 = vertexTangent(i.x);
+        vec3 t1 = vertexTangent(i.y).xyz, t2 = vertexTangent(i.z).xyz;
+        p.tangent = vec4(t0.xyz + b.x * (t1 - t0.xyz) + b.y * (t2 - t0.xyz), t0.w);
+    }
+    return p;
+}
+
+// A world-space point in object space. By the cofactors, as transformNormal().
+vec3 toObject(InstanceData data, vec3 p) {
+    vec3 r0 = data.objectToWorld0.xyz, r1 = data.objectToWorld1.xyz, r2 = data.objectToWorld2.xyz;
+    vec3 q = p - vec3(data.objectToWorld0.w, data.objectToWorld1.w, data.objectToWorld2.w);
+    vec3 c0 = cross(r1, r2);
+    return (c0 * q.x + cross(r2, r0) * q.y + cross(r0, r1) * q.z) / dot(r0, c0);
+}
+
+// Newton steps that take a point near a quadric onto it, along the gradient: the distance along a ray is not known well
+// enough (Pharr, Jakob, Humphreys, section 6.8.5). The second one is for rays from far away.
+const int kQuadricSteps = 2;
+
+Patch quadricPatch(Ray ray, Hit hit, InstanceData data) {
+    int at = int((data.firstPrimitive + hit.primitive) * kWordsQuadric);
+    vec4 w0 = uintBitsToFloat(texelFetch(quadricWords, at));
+    uvec4 rest = texelFetch(quadricWords, at + 1);
+    vec3 radii = w0.xyz;
+    float zz = w0.w, z = uintBitsToFloat(rest.x), constant = uintBitsToFloat(rest.y);
+    vec3 local = ray.origin + hit.t * ray.direction;
+    if (needs(kNeedTransforms)) local = toObject(data, local);
+    vec3 c = local / radii;
+    vec3 gradient;
+    for (int i = 0; i <= kQuadricSteps; ++i) {
+        gradient = vec3(2.0 * c.xy, 2.0 * zz * c.z + z);
+        float value = dot(c.xy, c.xy) + zz * c.z * c.z + z * c.z + constant;
+        float steepness = dot(gradient, gradient);
+        if (i < kQuadricSteps && steepness > 0.0) c -= value / steepness * gradient;
+    }
+    Patch p;
+    p.position = c * radii;
+    // The next ray's equation is set up at this size: its rounding is that of the whole quadric's coordinates.
+    p.positionError = 2.0 * positionErrorBound(data, vec3(maxComponent(abs(c))) * radii);
+    quadricDerivatives(c, rest.w != 0u, zz, z, uintBitsToFloat(rest.z), p.edge1, p.edge2);
+    p.edge1 *= radii;
+    p.edge2 *= radii;
+    vec3 n = gradient / radii;
+    if (needs(kNeedTransforms)) {
+        p.position = transformPoint(data, p.position);
+        n = transformNormal(data, n);
+        p.edge1 = transformVector(data, p.edge1);
+        p.edge2 = transformVector(data, p.edge2);
+    }
+    // The apex of a cone has no normal: along the axis is as good as any.
+    p.normal = dot(n, n) > 0.0 ? normalize(n) : vec3(0.0, 0.0, 1.0);
+    p.shading = p.normal;
+    p.distanceError = roundingBound(4) * maxComponent(abs(p.position));
+    p.uv = hit.barycentrics;
+    p.uvEdge1 = vec2(1.0, 0.0);
+    p.uvEdge2 = vec2(0.0, 1.0);
+    p.tangent = vec4(gradient == vec3(0.0) ? vec3(0.0) : vec3(-c.y, c.x, 0.0) * radii, 1.0);
+    return p;
+}
+
+vec3 mappedNormal(InstanceData data, MaterialData material, Patch at, float lod, float u) {
+    vec3 n = at.shading;
+    if (!needs(kNeedNormalMaps) || material.normalTexture == kNoTextureIndex) return n;
+    vec3 tangent = transformVector(data, at.tangent.xyz);
+    tangent -= n * dot(n, tangent);
+    if (dot(tangent, tangent) < 1e-20) return n;
+    tangent = normalize(tangent);
+    float handedness = (data.flags & kInstanceMirrored) != 0u ? -at.tangent.w : at.tangent.w;
+    vec3 bitangent = cross(n, tangent) * handedness;
+    vec3 m = fetchMaterialTexture(material.normalTexture, at.uv, lod, u).xyz * 2.0 - 1.0;
+    m.xy *= material.normalScale;
+    vec3 mapped = m.x * tangent + m.y * bitangent + m.z * n;
+    return dot(mapped, mapped) > 0.0 ? normalize(mapped) : n;
+}
+
+// `ray`: the one that hit, of unit direction. `u`: rounds texture levels.
+Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
+    vec3 wo = -ray.direction;
+    InstanceData data = loadInstance(hit.instance);
+    MaterialData material = loadMaterial(data.material);
+    bool isQuadric = needs(kNeedQuadrics) && (data.flags & kInstanceQuadric) != 0u;
+    Patch at;
+    if (isQuadric)
+        at = quadricPatch(ray, hit, data);
+    else
+        at = trianglePatch(hit, data);
 
     Surface s;
-    vec3 e1 = p1 - p0, e2 = p2 - p0;
-    vec3 n = cross(e1, e2);
-    vec3 local = (1.0 - b.x - b.y) * p0 + b.x * p1 + b.y * p2;
-    s.position = local;
-    s.positionError = positionErrorBound(data, p0, p1, p2);
-    if (needs(kNeedTransforms)) {
-        s.position = transformPoint(data, local);
-        n = transformNormal(data, n);
-        e1 = transformVector(data, e1);
-        e2 = transformVector(data, e2);
-    }
-    s.distanceError = roundingBound(4) * max(maxComponent(abs(e1)), maxComponent(abs(e2)));
-    n = normalize(n);
-    s.frontFace = dot(n, wo) >= 0.0;
-    s.uv = vec2(0.0);
+    s.position = at.position;
+    s.positionError = at.positionError;
+    s.distanceError = at.distanceError;
+    s.uv = at.uv;
+    s.frontFace = dot(at.normal, wo) >= 0.0;
     float lod = 0.0;
-    if (needs(kNeedTextures)) {
-        vec2 uv0 = uintBitsToFloat(texelFetch(vertexWords, int(i.x * kWordsVertex + 1u)).xy);
-        vec2 uv1 = uintBitsToFloat(texelFetch(vertexWords, int(i.y * kWordsVertex + 1u)).xy);
-        vec2 uv2 = uintBitsToFloat(texelFetch(vertexWords, int(i.z * kWordsVertex + 1u)).xy);
-        s.uv = uv0 + b.x * (uv1 - uv0) + b.y * (uv2 - uv0);
-        lod = coneLod(cone, e1, e2, uv1 - uv0, uv2 - uv0, abs(dot(n, wo)));
-    }
-    vec3 shading = n;
-    if (needs(kNeedSmoothNormals) || needs(kNeedNormalMaps))
-        shading = shadingNormal(data, material, i, b, v0.w, v1.w, v2.w, s.uv, lod, u, n);
-    s.geometricNormal = s.frontFace ? n : -n;
+    if (needs(kNeedTextures))
+        lod = coneLod(cone, at.edge1, at.edge2, at.uvEdge1, at.uvEdge2, abs(dot(at.normal, wo)));
+    vec3 shading = mappedNormal(data, material, at, lod, u);
+    s.geometricNormal = s.frontFace ? at.normal : -at.normal;
     s.normal = visibleNormal(s.frontFace ? shading : -shading, wo);
 
     s.baseColor = material.baseColor;
@@ -173,7 +264,7 @@ Surface surfaceAt(Hit hit, vec3 wo, RayCone cone, float u) {
     if (needs(kNeedSpecular) && s.metallic > 0.5) s.normal = reflectingNormal(s.normal, s.geometricNormal, wo);
     bool emits = s.frontFace || (material.flags & kMaterialDoubleSided) != 0u;
     s.emission = emits ? s.emission : vec3(0.0);
-    s.emissionWeight = material.emissionWeight;
+    s.emissionWeight = isQuadric ? 0.0 : material.emissionWeight;  // light sampling knows triangles alone
     s.alpha = roughness * roughness;
     s.transmission = material.transmission;
     s.ior = material.ior;

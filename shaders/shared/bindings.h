@@ -23,7 +23,11 @@ RAYLAB_CONST uint kBindEnvironment = 13;     // texel buffer, vec4: radiance, re
 RAYLAB_CONST uint kBindEnvironmentAlias = 14;  // texel buffer, uvec2: threshold (float bits), alias
 RAYLAB_CONST uint kBindRays = 15;            // texel buffer, vec4: two a ray (RayData): only in the ray-list kernels
 RAYLAB_CONST uint kBindHits = 16;            // storage buffer, HitData: only in the ray-list kernels
-RAYLAB_CONST uint kBindingCount = 17;
+RAYLAB_CONST uint kBindQuadrics = 17;       // texel buffer, uvec4: two a quadric of a mesh (QuadricData)
+RAYLAB_CONST uint kBindTraceQuadrics = 18;  // texel buffer, uvec4: five a quadric of a tree (TraceQuadric)
+RAYLAB_CONST uint kBindTopLevel = 19;       // acceleration structure: only in the kernels of the hardware tracers
+RAYLAB_CONST uint kBindCounts = 20;         // storage buffer, RayCounts: only in the ray-list kernels
+RAYLAB_CONST uint kBindingCount = 21;
 
 RAYLAB_CONST uint kTileSize = 8;                            // a workgroup renders a tile of 8 x 8 pixels
 RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;
@@ -32,8 +36,7 @@ RAYLAB_CONST uint kSpecNeeds = 0;       // which NEED_ bits the kernel contains
 RAYLAB_CONST uint kSpecIntegrator = 1;  // IntegratorId
 RAYLAB_CONST uint kSpecStackSize = 2;   // entries of the traversal stack: what this scene's trees can fill
 RAYLAB_CONST uint kSpecCount = 3;       // 1: the traversal counts what it fetches
-RAYLAB_CONST uint kSpecLayout = 4;      // kLayout...
-RAYLAB_CONST uint kSpecTriangle = 5;    // kTriangle...
+RAYLAB_CONST uint kSpecTriangle = 4;    // kTriangle...
 
 RAYLAB_SHARED_END
 #endif

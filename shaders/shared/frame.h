@@ -84,11 +84,21 @@ struct HitData {
     float v;
     uint instance;
     uint primitive;
-    uint nodes;  // fetched for this ray; these three only where the kernel counts (kSpecCount)
-    uint triangles;
-    uint instances;
 };
-RAYLAB_CHECK(HitData, 32);
+RAYLAB_CHECK(HitData, 20);
+
+// What the traversal did for a ray; written where the kernel counts (kSpecCount).
+struct RayCounts {
+    uint steps;  // of the walk's loop: a node, a leaf or, in layouts of blocks, a primitive
+    uint nodes;  // fetched
+    uint boxesTested;
+    uint boxesHit;
+    uint primitivesTested;  // triangles and quadrics; of the hardware tracers: candidates that the kernel is asked about
+    uint primitivesHit;     // closer than what was known then
+    uint instances;         // entered
+    uint stackHigh;         // most entries of the stack in use
+};
+RAYLAB_CHECK(RayCounts, 32);
 
 struct RaysPush {
     uint count;

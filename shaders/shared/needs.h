@@ -17,8 +17,9 @@ RAYLAB_CONST uint kNeedTransmission = 1u << 7;    // smooth dielectric
 RAYLAB_CONST uint kNeedEmissive = 1u << 8;        // emissive triangles as lights
 RAYLAB_CONST uint kNeedPunctual = 1u << 9;        // point, directional and spot lights
 RAYLAB_CONST uint kNeedEnvironment = 1u << 10;    // radiance from infinitely far away
-RAYLAB_CONST uint kNeedCount = 11;
-RAYLAB_CONST uint kNeedAll = (1u << 11) - 1u;
+RAYLAB_CONST uint kNeedQuadrics = 1u << 11;       // surfaces of the second degree
+RAYLAB_CONST uint kNeedCount = 12;
+RAYLAB_CONST uint kNeedAll = (1u << 12) - 1u;
 
 RAYLAB_SHARED_END
 #endif

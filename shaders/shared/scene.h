@@ -18,6 +18,8 @@ struct TraceTriangle {
     uint opacity;  // of 16 microtriangles, two bits each: kOpacity...
 };
 RAYLAB_CHECK(TraceTriangle, 48);
+// A slot that holds a quadric instead: the first component of its first word is its index among the TraceQuadrics.
+RAYLAB_CONST uint kSlotIsQuadric = 0x40000000u;  // in `instance`
 RAYLAB_CONST uint kInheritInstance = 0x3fffffffu;  // in a Candidate: no hit yet
 RAYLAB_CONST uint kInstanceMask = 0x3fffffffu;
 RAYLAB_CONST uint kBlockIsLeaf = 0x80000000u;  // bvh4b: in the last component of a block's first word
@@ -28,13 +30,6 @@ RAYLAB_CONST uint kOpacityUnknown = 0u;  // a hit must pass acceptsCandidate()
 RAYLAB_CONST uint kOpacityTransparent = 1u;
 RAYLAB_CONST uint kOpacityOpaque = 2u;
 RAYLAB_CONST uint kAllOpaque = 0xaaaaaaaau;
-
-// Layouts of the trees, in the order of layouts() in engine/accel/layout.cpp.
-RAYLAB_CONST uint kLayoutBvh2 = 0u;
-RAYLAB_CONST uint kLayoutBvh2q = 1u;
-RAYLAB_CONST uint kLayoutBvh4q = 2u;
-RAYLAB_CONST uint kLayoutBvh8q = 3u;
-RAYLAB_CONST uint kLayoutBvh4b = 4u;
 
 // Triangle tests, in the order of triangleTests() in engine/render/triangle_record.cpp.
 RAYLAB_CONST uint kTriangleMinimal = 0u;
@@ -51,20 +46,55 @@ struct TraceInstance {
     uint root;  // child reference of the tree's root node
     vec3 gridStep;
     uint instance;
-    uint firstTriangle;  // range of TraceTriangles, for the brute-force tracer
-    uint triangleCount;
-    uint padding0;
-    uint padding1;
+    uint firstSlot;  // range of TraceTriangles: of the tree
+    uint slotCount;
+    uint opaqueSlots;    // hardware tracers: triangles that need no alpha test come first
+    uint triangleSlots;  // hardware tracers: then the others, then quadrics
 };
 RAYLAB_CHECK(TraceInstance, 96);
 RAYLAB_CONST uint kWordsTraceInstance = 6;
+// Hardware tracers: which of the structures of a tree an instance in the top level shows, in the low bits of its custom index.
+RAYLAB_CONST uint kStructureKindBits = 2u;
+RAYLAB_CONST uint kStructureOpaque = 0u;
+RAYLAB_CONST uint kStructureAlpha = 1u;
+RAYLAB_CONST uint kStructureQuadrics = 2u;
+
+// Traversal: a quadric in the canonical space X^2 + Y^2 + zz Z^2 + z Z + constant = 0 (engine/scene/quadric.h). Rows of the
+// 3x4 matrix from the space of its tree.
+struct TraceQuadric {
+    vec4 toCanonical0;
+    vec4 toCanonical1;
+    vec4 toCanonical2;
+    float zz;
+    float z;
+    float constant;
+    float clipLow;
+    float clipHigh;
+    uint isEllipsoid;  // texture coordinates by latitude, not by height
+    uint padding0;
+    uint padding1;
+};
+RAYLAB_CHECK(TraceQuadric, 80);
+RAYLAB_CONST uint kWordsTraceQuadric = 5;
+
+// Shading: a quadric of a mesh; the same form in coordinates over the radii.
+struct QuadricData {
+    vec3 radii;
+    float zz;
+    float z;
+    float constant;
+    float height;  // between the clip planes, canonical
+    uint isEllipsoid;
+};
+RAYLAB_CHECK(QuadricData, 32);
+RAYLAB_CONST uint kWordsQuadric = 2;
 
 // Shading: an instance of a mesh. Rows of the 3x4 matrix object to world.
 struct InstanceData {
     vec4 objectToWorld0;
     vec4 objectToWorld1;
     vec4 objectToWorld2;
-    uint firstTriangle;  // into the triangles of all meshes
+    uint firstPrimitive;  // into the triangles or the quadrics of all meshes
     uint material;
     uint flags;  // kInstance...
     uint padding;
@@ -73,6 +103,7 @@ RAYLAB_CHECK(InstanceData, 64);
 RAYLAB_CONST uint kWordsInstance = 4;
 RAYLAB_CONST uint kInstanceSmooth = 1u;    // vertices carry normals
 RAYLAB_CONST uint kInstanceMirrored = 2u;  // negative determinant
+RAYLAB_CONST uint kInstanceQuadric = 4u;   // of a mesh of quadrics
 
 struct TriangleData {
     uint v0;

@@ -13,7 +13,7 @@ ivec2 slabBvh2(SlabRay ray, uvec3 lo, uvec3 hi, int tMin, int tMax) {
                         (uintBitsToFloat(hi) - ray.origin) * ray.reciprocal, tMin, tMax);
 }
 
-bool findHitBvh2(Ray ray, bool anyHit, out Candidate hit) {
+bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kTreeEnd) return false;
@@ -29,7 +29,6 @@ bool findHitBvh2(Ray ray, bool anyHit, out Candidate hit) {
     while (node != kTreeEnd) {
         int tMax = floatBitsToInt(hit.t);
         while (node < kTreeLeafBit) {
-            if (kCount != 0u) ++countedNodes;
             int at = int(node * kWordsNodeBvh2);
             uvec4 w0 = texelFetch(nodeWords, at);
             uvec4 w1 = texelFetch(nodeWords, at + 1);
@@ -41,6 +40,7 @@ bool findHitBvh2(Ray ray, bool anyHit, out Candidate hit) {
             ivec2 t1 = slabBvh2(slab, w2.xyz, w3.xyz, tMin, tMax);
             bool hit0 = t0.x - kTreeSlabUlps <= t0.y;
             bool hit1 = t1.x - kTreeSlabUlps <= t1.y;
+            countNode(2u, uint(hit0) + uint(hit1), top);
             bool secondFirst = hit1 && (!hit0 || t1.x < t0.x);
             bool pop = !hit0 && !hit1;
             if (needs(kNeedInstancing)) upper = upper || (pop && top <= floor);
@@ -50,6 +50,7 @@ bool findHitBvh2(Ray ray, bool anyHit, out Candidate hit) {
             top += hit0 && hit1 ? 1 : (pop ? -1 : 0);
         }
         if (node == kTreeEnd) break;
+        countLeafStep(top);
         uint slot = node & kTreeLeafFirstMask;
         if (needs(kNeedInstancing) && upper) {
             object = enterObject(ray, slot, node);
@@ -69,5 +70,7 @@ bool findHitBvh2(Ray ray, bool anyHit, out Candidate hit) {
     }
     return hit.instance != kInheritInstance;
 }
+
+#include "trace/interface.glsl"
 
 #endif

@@ -32,7 +32,7 @@ GridRay enterGrid(SlabRay ray, uint slot) {
     return gridRay(ray, origin, uintBitsToFloat(texelFetch(traceInstanceWords, at + 4).xyz));
 }
 
-bool findHitBvh2q(Ray ray, bool anyHit, out Candidate hit) {
+bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kTreeEnd) return false;
@@ -50,7 +50,6 @@ bool findHitBvh2q(Ray ray, bool anyHit, out Candidate hit) {
     while (node != kTreeEnd) {
         int tMax = floatBitsToInt(hit.t);
         while (node < kTreeLeafBit) {
-            if (kCount != 0u) ++countedNodes;
             uvec4 w0 = texelFetch(nodeWords, int(node * 2u));
             uvec4 w1 = texelFetch(nodeWords, int(node * 2u + 1u));
             GridRay grid = lower;
@@ -59,6 +58,7 @@ bool findHitBvh2q(Ray ray, bool anyHit, out Candidate hit) {
             ivec2 t1 = slabBvh2q(grid, w1.xyz, tMin, tMax);
             bool hit0 = t0.x - kTreeSlabUlps <= t0.y;
             bool hit1 = t1.x - kTreeSlabUlps <= t1.y;
+            countNode(2u, uint(hit0) + uint(hit1), top);
             bool secondFirst = hit1 && (!hit0 || t1.x < t0.x);
             bool pop = !hit0 && !hit1;
             if (needs(kNeedInstancing)) upper = upper || (pop && top <= floor);
@@ -68,6 +68,7 @@ bool findHitBvh2q(Ray ray, bool anyHit, out Candidate hit) {
             top += hit0 && hit1 ? 1 : (pop ? -1 : 0);
         }
         if (node == kTreeEnd) break;
+        countLeafStep(top);
         uint slot = node & kTreeLeafFirstMask;
         if (needs(kNeedInstancing) && upper) {
             object = enterObject(ray, slot, node);
@@ -88,5 +89,7 @@ bool findHitBvh2q(Ray ray, bool anyHit, out Candidate hit) {
     }
     return hit.instance != kInheritInstance;
 }
+
+#include "trace/interface.glsl"
 
 #endif

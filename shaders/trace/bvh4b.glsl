@@ -13,8 +13,8 @@ const uint kNoChildren = 1u;         // a group's low bits: see walk_bvh4b.h
 const uint kGroupBits = 7u;
 const uint kGroupMask = 127u;
 const int kNotHit = 0x7fffffff;
-// Lanes that wait for an alpha test or at an instance are served after so many steps of the others.
-const int kStepsBvh4b = (kNeeds & (kNeedAlpha | kNeedInstancing)) != 0u ? 8 : 0x7fffffff;
+// Lanes that wait for an alpha test, at a quadric or at an instance are served after so many steps of the others.
+const int kStepsBvh4b = (kNeeds & (kNeedAlpha | kNeedInstancing | kNeedQuadrics)) != 0u ? 8 : 0x7fffffff;
 
 // The children of the node in w0 to w2 that the ray meets: their numbers, two bits each, nearest first, ended by a 1.
 uint childrenBvh4b(SlabRay ray, uvec4 w0, uvec4 w1, uvec2 w2, int tMin, int tMax, bool isNode) {
@@ -45,7 +45,7 @@ uint childrenBvh4b(SlabRay ray, uvec4 w0, uvec4 w1, uvec2 w2, int tMin, int tMax
     return ((sorted.x | sorted.y << 2 | sorted.z << 4 | sorted.w << 6) & (end - 1u)) | end;
 }
 
-bool findHitBvh4b(Ray ray, bool anyHit, out Candidate hit) {
+bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kTreeEnd) return false;
@@ -62,8 +62,9 @@ bool findHitBvh4b(Ray ray, bool anyHit, out Candidate hit) {
     Candidate waiting = hit;  // for its alpha test
     bool enter = false;       // a leaf of the upper tree, by `slot`
     uint slot = 0u;
-    while (block != kLastBlock || waiting.untested) {
-        for (int step = 0; step < kStepsBvh4b && block != kLastBlock && !waiting.untested && !enter; ++step) {
+    uint quadric = kLastBlock;  // a block that holds one
+    while (block != kLastBlock || waiting.untested || quadric != kLastBlock) {
+        for (int step = 0; step < kStepsBvh4b && block != kLastBlock && !waiting.untested && !enter && quadric == kLastBlock; ++step) {
             int at = int(block * kWordsTraceTriangle);
             uvec4 w0 = texelFetch(nodeWords, at);
             uvec4 w1 = texelFetch(nodeWords, at + 1);
@@ -72,11 +73,19 @@ bool findHitBvh4b(Ray ray, bool anyHit, out Candidate hit) {
             if (kWordsTraceTriangle > 3u) w3 = texelFetch(nodeWords, at + 3);
             bool isLeaf = w0.w >= kBlockIsLeaf;
             bool isTriangle = isLeaf && !upper;
-            if (kCount != 0u && !isLeaf) ++countedNodes;
+            if (needs(kNeedQuadrics) && isTriangle && (w0.w & kSlotIsQuadric) != 0u) {
+                quadric = block;
+                isTriangle = false;
+            }
 
             SlabRay slab = object.slab;
             if (needs(kNeedInstancing)) slab = selectSlabRay(upper, object.slab, world);
             uint children = childrenBvh4b(slab, w0, w1, w2.xy, tMin, floatBitsToInt(hit.t), !isLeaf);
+            uint met = uint(findMSB(children)) >> 1;
+            if (isLeaf)
+                countLeafStep(top);
+            else
+                countNode(((w0.w >> 24) & 3u) + 1u, met, top);
             Candidate found = hit;
             considerTriangle(ray, object.triangle, w0, w1, w2, w3, object.instance, isTriangle, found);
             if (needs(kNeedAlpha)) waiting = found;
@@ -106,6 +115,13 @@ bool findHitBvh4b(Ray ray, bool anyHit, out Candidate hit) {
             upper = false;
             enter = false;
         }
+        if (needs(kNeedQuadrics) && quadric != kLastBlock) {
+            int at = int(quadric * kWordsTraceTriangle);
+            considerQuadric(ray, object.triangle, texelFetch(nodeWords, at), texelFetch(nodeWords, at + 1),
+                            texelFetch(nodeWords, at + 2), object.instance, hit);
+            quadric = kLastBlock;
+            if (anyHit && hit.instance != kInheritInstance) block = kLastBlock;
+        }
         if (needs(kNeedAlpha) && waiting.untested) {
             waiting.untested = false;
             if (acceptsUntested(waiting, ray.key)) {
@@ -116,5 +132,7 @@ bool findHitBvh4b(Ray ray, bool anyHit, out Candidate hit) {
     }
     return hit.instance != kInheritInstance;
 }
+
+#include "trace/interface.glsl"
 
 #endif

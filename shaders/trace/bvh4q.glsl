@@ -60,7 +60,7 @@ void nextLeafBvh4q(inout LeavesBvh4q leaves, float tMax) {
     if (int(leaves.keys.x & ~3u) - kTreeSlabUlps > floatBitsToInt(tMax)) leaves.keys = uvec4(kNoKeyBvh4q);
 }
 
-bool findHitBvh4q(Ray ray, bool anyHit, out Candidate hit) {
+bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kTreeEnd) return false;
@@ -78,7 +78,6 @@ bool findHitBvh4q(Ray ray, bool anyHit, out Candidate hit) {
     while (true) {
         int tMax = floatBitsToInt(hit.t);
         while (node < kTreeLeafBit && leaves.keys.x == kNoKeyBvh4q) {
-            if (kCount != 0u) ++countedNodes;
             int at = int(node * kWordsNodeBvh4q);
             uvec4 w0 = texelFetch(nodeWords, at);
             uvec4 w1 = texelFetch(nodeWords, at + 1);
@@ -89,6 +88,8 @@ bool findHitBvh4q(Ray ray, bool anyHit, out Candidate hit) {
             bvec4 hits = frameSlabs(frameRay(slab, w0), w1.xyz, uvec3(w1.w, w2.xy), tMin, tMax, near);
             uvec4 bits = uvec4(1u << 28, 1u << 29, 1u << 30, 1u << 31);
             uvec4 reached = mix(uvec4(0u), uvec4(w2.z) & bits, hits);  // children that exist
+            uvec4 tests = uvec4(notEqual(uvec4(w2.z) & bits, uvec4(0u))), met = uvec4(notEqual(reached, uvec4(0u)));
+            countNode(tests.x + tests.y + tests.z + tests.w, met.x + met.y + met.z + met.w, top);
             uvec4 keys = (uvec4(near) & ~3u) | uvec4(0u, 1u, 2u, 3u);
             uvec4 inner = sortKeysBvh4q(mix(uvec4(kNoKeyBvh4q), keys, notEqual(reached & w2.w, uvec4(0u))));
             leaves.keys = sortKeysBvh4q(mix(uvec4(kNoKeyBvh4q), keys, notEqual(reached & ~w2.w, uvec4(0u))));
@@ -125,6 +126,7 @@ bool findHitBvh4q(Ray ray, bool anyHit, out Candidate hit) {
             upper = false;
             continue;
         }
+        countLeafStep(top);
         uint reference = leafBvh4q(leaves, leaves.keys.x);
         uint first = reference & kTreeLeafFirstMask;
         uint last = first + ((reference >> kTreeLeafCountShift) & 15u);
@@ -140,5 +142,7 @@ bool findHitBvh4q(Ray ray, bool anyHit, out Candidate hit) {
     }
     return hit.instance != kInheritInstance;
 }
+
+#include "trace/interface.glsl"
 
 #endif

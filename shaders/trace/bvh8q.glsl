@@ -20,7 +20,7 @@ uint hitBitsBvh8q(bvec4 hits, uint meta, uint flip) {
     return bits.x | bits.y | bits.z | bits.w;
 }
 
-bool findHitBvh8q(Ray ray, bool anyHit, out Candidate hit) {
+bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
     if (frame.root == kTreeEnd) return false;
@@ -40,7 +40,6 @@ bool findHitBvh8q(Ray ray, bool anyHit, out Candidate hit) {
     while (true) {
         int tMax = floatBitsToInt(hit.t);
         while (slots == 0u && group.y > kSlotBitsBvh8q) {
-            if (kCount != 0u) ++countedNodes;
             SlabRay slab = object.slab;
             if (needs(kNeedInstancing)) slab = selectSlabRay(upper, object.slab, world);
             uvec3 positive = mix(uvec3(1u, 2u, 4u), uvec3(0u), lessThan(slab.reciprocal, vec3(0.0)));
@@ -64,6 +63,7 @@ bool findHitBvh8q(Ray ray, bool anyHit, out Candidate hit) {
             bvec4 hits0 = frameSlabs(boxes, uvec3(w2.xz, w3.x), uvec3(w3.z, w4.xz), tMin, tMax, near);
             bvec4 hits1 = frameSlabs(boxes, uvec3(w2.yw, w3.y), uvec3(w3.w, w4.yw), tMin, tMax, near);
             uint hits = hitBitsBvh8q(hits0, w1.z, flip) | hitBitsBvh8q(hits1, w1.w, flip);
+            countNode(8u, uint(bitCount(hits)), top + 1);  // two words an entry
             slots = hits & kSlotBitsBvh8q;
             firstSlot = w1.y;
             slotsUpper = upper;
@@ -99,10 +99,13 @@ bool findHitBvh8q(Ray ray, bool anyHit, out Candidate hit) {
             upper = false;
             continue;
         }
+        countLeafStep(top + 1);
         testSlotBits(ray, object, firstSlot, slots, hit);
         if (anyHit && hit.instance != kInheritInstance) return true;
     }
     return hit.instance != kInheritInstance;
 }
+
+#include "trace/interface.glsl"
 
 #endif

@@ -3,6 +3,7 @@
 #define RAYLAB_CANDIDATE_GLSL
 
 #include "trace/common.glsl"
+#include "trace/quadric.glsl"
 #include "trace/triangle.glsl"
 
 struct Candidate {
@@ -32,10 +33,15 @@ uint opacityAt(uint opacity, vec2 barycentrics) {
     return (opacity >> (2u * index)) & 3u;
 }
 
+void countPrimitive(bool tested, bool isHit) {
+    if (kCount == 0u) return;
+    counted.primitivesTested += uint(tested);
+    counted.primitivesHit += uint(isHit);
+}
+
 // Ids order hits at equal distance, so that the answer does not depend on the tree. `w0` to `w3`: the triangle's words.
 void considerTriangle(Ray ray, TriangleRay triangleRay, uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uint owner, bool isTriangle,
                       inout Candidate hit) {
-    if (kCount != 0u && isTriangle) ++countedTriangles;
     TriangleWords words = TriangleWords(uintBitsToFloat(w0.xyz), uintBitsToFloat(w1.xyz), uintBitsToFloat(w2.xyz),
                                         uintBitsToFloat(w3.xyz));
     float t;
@@ -49,10 +55,32 @@ void considerTriangle(Ray ray, TriangleRay triangleRay, uvec4 w0, uvec4 w1, uvec
         accepted = accepted && opacity != kOpacityTransparent;
         hit.untested = accepted && opacity == kOpacityUnknown;
     }
+    countPrimitive(isTriangle, accepted);
     hit.t = accepted ? t : hit.t;
     hit.barycentrics = accepted ? uv : hit.barycentrics;
     hit.instance = accepted ? instance : hit.instance;
     hit.primitive = accepted ? w1.w : hit.primitive;
+}
+
+// The same for the quadric that a slot's words name; `origin` and `direction` in the space of the tree. Its alpha is tested
+// at once: behind a hole in its near side lies its far side.
+void considerQuadric(Ray ray, TriangleRay local, uvec4 w0, uvec4 w1, uvec4 w2, uint owner, inout Candidate hit) {
+    uint instance = w0.w & kInstanceMask;
+    if (needs(kNeedInstancing)) instance = owner != kInheritInstance ? owner : instance;
+    float tMin = ray.tMin;
+    for (int side = 0; side < 2; ++side) {
+        float t;
+        vec2 uv;
+        bool accepted = intersectQuadric(local.origin, local.direction, w0.x, tMin, hit.t, t, uv);
+        accepted = accepted && (t < hit.t || idsBefore(instance, w1.w, hit.instance, hit.primitive));
+        countPrimitive(side == 0, accepted);
+        if (!accepted) return;
+        if (!needs(kNeedAlpha) || w2.w == kAllOpaque || acceptsCandidate(instance, w1.w, uv, ray.key)) {
+            hit = Candidate(t, uv, instance, w1.w, false);
+            return;
+        }
+        tMin = t;
+    }
 }
 
 void testTriangle(Ray ray, TriangleRay triangleRay, uint slot, uint owner, inout Candidate hit) {
@@ -62,7 +90,9 @@ void testTriangle(Ray ray, TriangleRay triangleRay, uint slot, uint owner, inout
     uvec4 w2 = texelFetch(traceTriangleWords, at + 2);
     uvec4 w3 = uvec4(0u);
     if (kWordsTraceTriangle > 3u) w3 = texelFetch(traceTriangleWords, at + 3);
-    considerTriangle(ray, triangleRay, w0, w1, w2, w3, owner, true, hit);
+    bool isQuadric = needs(kNeedQuadrics) && (w0.w & kSlotIsQuadric) != 0u;
+    considerTriangle(ray, triangleRay, w0, w1, w2, w3, owner, !isQuadric, hit);
+    if (needs(kNeedQuadrics) && isQuadric) considerQuadric(ray, triangleRay, w0, w1, w2, owner, hit);
 }
 
 bool acceptsUntested(Candidate hit, uint key) {

@@ -17,7 +17,7 @@ struct Ray {
 
 struct Hit {
     float t;
-    vec2 barycentrics;  // weights of the second and third vertex
+    vec2 barycentrics;  // weights of the second and third vertex; of a quadric: its texture coordinates
     uint instance;
     uint primitive;  // index within the instance's mesh
 };
@@ -26,10 +26,7 @@ const float kInfinity = 3.0e38;
 
 uint tracedRays = 0u;  // by this invocation
 
-// What the traversal fetched, where the kernel counts.
-uint countedNodes = 0u;
-uint countedTriangles = 0u;
-uint countedInstances = 0u;
+RayCounts counted = RayCounts(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);  // where the kernel counts
 
 vec2 triangleUv(uvec4 indices, vec2 barycentrics) {
     vec2 uv0 = uintBitsToFloat(texelFetch(vertexWords, int(indices.x * kWordsVertex + 1u)).xy);
@@ -44,8 +41,10 @@ bool acceptsCandidate(uint instance, uint primitive, vec2 barycentrics, uint key
     MaterialData material = loadMaterial(data.material);
     float alpha = material.alpha;
     if (needs(kNeedTextures) && material.baseColorTexture != kNoTextureIndex) {
-        uvec4 indices = texelFetch(triangleWords, int(data.firstTriangle + primitive));
-        alpha *= sampleTextureSharp(material.baseColorTexture, triangleUv(indices, barycentrics)).a;
+        vec2 uv = barycentrics;
+        if (!needs(kNeedQuadrics) || (data.flags & kInstanceQuadric) == 0u)
+            uv = triangleUv(texelFetch(triangleWords, int(data.firstPrimitive + primitive)), barycentrics);
+        alpha *= sampleTextureSharp(material.baseColorTexture, uv).a;
     }
     float cutoff = material.alphaCutoff == kAlphaBlend
                        ? unitFloat(hashCombine(hashCombine(key, instance), primitive))

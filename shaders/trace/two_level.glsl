@@ -68,6 +68,23 @@ bvec4 frameSlabs(FrameRay ray, uvec3 lo, uvec3 hi, int tMin, int tMax, out ivec4
     return lessThanEqual(near - kTreeSlabUlps, far);
 }
 
+// `top`: of the stack before the node's children go there.
+void countNode(uint boxesTested, uint boxesHit, int top) {
+    if (kCount == 0u) return;
+    ++counted.steps;
+    ++counted.nodes;
+    counted.boxesTested += boxesTested;
+    counted.boxesHit += boxesHit;
+    counted.stackHigh = max(counted.stackHigh, uint(top) + 1u);
+}
+
+// A step of the walk at a leaf, or at a primitive.
+void countLeafStep(int top) {
+    if (kCount == 0u) return;
+    ++counted.steps;
+    counted.stackHigh = max(counted.stackHigh, uint(top) + 1u);
+}
+
 // The ray in the space of a tree over triangles.
 struct ObjectRay {
     SlabRay slab;
@@ -77,7 +94,7 @@ struct ObjectRay {
 
 // The ray in the space of the tree at `slot` of the trace instances.
 void transformRay(Ray ray, uint slot, out vec3 origin, out vec3 direction) {
-    if (kCount != 0u) ++countedInstances;
+    if (kCount != 0u) ++counted.instances;
     int at = int(slot * kWordsTraceInstance);
     vec4 row0 = uintBitsToFloat(texelFetch(traceInstanceWords, at));
     vec4 row1 = uintBitsToFloat(texelFetch(traceInstanceWords, at + 1));

@@ -50,7 +50,8 @@ protected:
         std::vector<char*> pointers;
         for (std::string& word : words) pointers.push_back(word.data());
         pointers.push_back(nullptr);
-        if (::chdir(folder_.c_str()) != 0 || !std::freopen("stdout", "w", stdout) || !std::freopen("stderr", "w", stderr))
+        if (::chdir(folder_.c_str()) != 0 || !std::freopen("stdout", "w", stdout) ||
+            !std::freopen("stderr", "w", stderr))
             ::_exit(127);
         ::execv(kProgram.c_str(), pointers.data());
         ::_exit(127);
@@ -88,7 +89,9 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
     return words;
 }
 
-TEST_F(CommandLine, NoSuchScene) { expectRefused({"render", "nowhere.glb", "-o", "old.png"}, "nowhere.glb: no such file"); }
+TEST_F(CommandLine, NoSuchScene) {
+    expectRefused({"render", "nowhere.glb", "-o", "old.png"}, "nowhere.glb: no such file");
+}
 
 TEST_F(CommandLine, SceneIsAFolder) {
     fs::create_directories(folder_ / "folder.glb");
@@ -143,7 +146,8 @@ TEST_F(CommandLine, UnknownDeviceHasItsOwnExitCode) {
 }
 
 TEST_F(CommandLine, HelpAndVersion) {
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"--version"}, {"render", "--help"}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--help"}, {"--version"}, {"render", "--help"}}) {
         const Outcome outcome = run(words);
         EXPECT_EQ(outcome.exitCode, 0);
         EXPECT_FALSE(outcome.out.empty());
@@ -161,22 +165,26 @@ TEST_F(CommandLine, RenderWritesWhatTheJsonSays) {
     EXPECT_EQ(json["nonFinitePixels"], 0);
     EXPECT_EQ(json["validationMessages"], 0);
     EXPECT_GT(json["raysPerSecond"], 0.0);
-    for (const char* phase : {"import", "build", "upload", "compile", "render", "total"}) EXPECT_TRUE(json["seconds"].contains(phase));
+    for (const char* phase : {"import", "build", "upload", "compile", "render", "total"})
+        EXPECT_TRUE(json["seconds"].contains(phase));
     Metadata metadata;
     const std::vector<Layer> layers = readExrLayers(folder_ / "a.exr", &metadata);
     ASSERT_EQ(layers.size(), 3u);
     EXPECT_EQ(layers[0].bitmap.width, 16);
-    const auto samples = std::find_if(layers.begin(), layers.end(), [](const Layer& layer) { return layer.name == "samples"; });
+    const auto samples =
+        std::find_if(layers.begin(), layers.end(), [](const Layer& layer) { return layer.name == "samples"; });
     ASSERT_NE(samples, layers.end());
     EXPECT_EQ(samples->bitmap.pixels[0], 2.0f);
     const auto has = [&](const char* key, const char* value) {
-        return std::find(metadata.begin(), metadata.end(), std::pair<std::string, std::string>(key, value)) != metadata.end();
+        return std::find(metadata.begin(), metadata.end(), std::pair<std::string, std::string>(key, value)) !=
+               metadata.end();
     };
     EXPECT_TRUE(has("seed", "0") && has("spp", "2") && has("scene", "cornell"));
 }
 
 TEST_F(CommandLine, SameSeedSameBits) {
-    for (const char* name : {"a.exr", "b.exr"}) ASSERT_EQ(run(with({"render", "cornell", "-o", name, "--seed", "7"}, kSmall)).exitCode, 0);
+    for (const char* name : {"a.exr", "b.exr"})
+        ASSERT_EQ(run(with({"render", "cornell", "-o", name, "--seed", "7"}, kSmall)).exitCode, 0);
     ASSERT_EQ(run(with({"render", "cornell", "-o", "c.exr", "--seed", "8"}, kSmall)).exitCode, 0);
     EXPECT_EQ(textOf(folder_ / "a.exr"), textOf(folder_ / "b.exr"));
     EXPECT_NE(textOf(folder_ / "a.exr"), textOf(folder_ / "c.exr"));
@@ -187,7 +195,8 @@ TEST_F(CommandLine, SameSeedSameBits) {
 }
 
 TEST_F(CommandLine, InterruptWritesWhatIsThere) {
-    const pid_t child = start({"render", "cornell", "-o", "a.png", "--spp", "4000000000", "--width", "64", "--height", "64"});
+    const pid_t child =
+        start({"render", "cornell", "-o", "a.png", "--spp", "4000000000", "--width", "64", "--height", "64"});
     for (int tries = 0; tries < 600 && textOf(folder_ / "stderr").find("samples") == std::string::npos; ++tries)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ::kill(child, SIGINT);

@@ -9,15 +9,18 @@ layout(push_constant) uniform PushBlock { RenderPush push; };
 layout(set = 0, binding = kBindFilm, std430) readonly buffer FilmBlock { FilmPixel film; };
 layout(set = 0, binding = kBindRays, std430) readonly buffer RayBlock { RayData ray; };
 layout(set = 0, binding = kBindHits, std430) readonly buffer HitBlock { HitData hit; };
-layout(set = 0, binding = 20, std430) readonly buffer RaysPushBlock { RaysPush raysPush; };
-layout(set = 0, binding = 21, std430) readonly buffer TraceTriangleBlock { TraceTriangle traceTriangle; };
-layout(set = 0, binding = 22, std430) readonly buffer TraceInstanceBlock { TraceInstance traceInstance; };
-layout(set = 0, binding = 23, std430) readonly buffer TriangleBlock { TriangleData triangle; };
-layout(set = 0, binding = 24, std430) readonly buffer VertexBlock { VertexData vertex; };
-layout(set = 0, binding = 25, std430) readonly buffer TextureBlock { TextureData textureData; };
-layout(set = 0, binding = 26, std430) readonly buffer EmissiveBlock { EmissiveData emissive; };
-layout(set = 0, binding = 27, std430) readonly buffer PunctualBlock { PunctualData punctual; };
-layout(set = 0, binding = 28, std430) writeonly buffer ResultBlock { uint result[]; };
+layout(set = 0, binding = kBindCounts, std430) readonly buffer CountBlock { RayCounts counts; };
+layout(set = 0, binding = 49, std430) readonly buffer TraceQuadricBlock { TraceQuadric traceQuadric; };
+layout(set = 0, binding = 50, std430) readonly buffer QuadricBlock { QuadricData quadric; };
+layout(set = 0, binding = 40, std430) readonly buffer RaysPushBlock { RaysPush raysPush; };
+layout(set = 0, binding = 41, std430) readonly buffer TraceTriangleBlock { TraceTriangle traceTriangle; };
+layout(set = 0, binding = 42, std430) readonly buffer TraceInstanceBlock { TraceInstance traceInstance; };
+layout(set = 0, binding = 43, std430) readonly buffer TriangleBlock { TriangleData triangle; };
+layout(set = 0, binding = 44, std430) readonly buffer VertexBlock { VertexData vertex; };
+layout(set = 0, binding = 45, std430) readonly buffer TextureBlock { TextureData textureData; };
+layout(set = 0, binding = 46, std430) readonly buffer EmissiveBlock { EmissiveData emissive; };
+layout(set = 0, binding = 47, std430) readonly buffer PunctualBlock { PunctualData punctual; };
+layout(set = 0, binding = 48, std430) writeonly buffer ResultBlock { uint result[]; };
 
 uint next = 0u;
 
@@ -86,9 +89,14 @@ void emitBuffers() {
     emit(hit.v);
     emit(hit.instance);
     emit(hit.primitive);
-    emit(hit.nodes);
-    emit(hit.triangles);
-    emit(hit.instances);
+    emit(counts.steps);
+    emit(counts.nodes);
+    emit(counts.boxesTested);
+    emit(counts.boxesHit);
+    emit(counts.primitivesTested);
+    emit(counts.primitivesHit);
+    emit(counts.instances);
+    emit(counts.stackHigh);
     emit(raysPush.count);
     emit(raysPush.anyHit);
 }
@@ -107,10 +115,21 @@ void emitTraversal() {
     emit(traceInstance.root);
     emit(traceInstance.gridStep);
     emit(traceInstance.instance);
-    emit(traceInstance.firstTriangle);
-    emit(traceInstance.triangleCount);
-    emit(traceInstance.padding0);
-    emit(traceInstance.padding1);
+    emit(traceInstance.firstSlot);
+    emit(traceInstance.slotCount);
+    emit(traceInstance.opaqueSlots);
+    emit(traceInstance.triangleSlots);
+    emit(traceQuadric.toCanonical0);
+    emit(traceQuadric.toCanonical1);
+    emit(traceQuadric.toCanonical2);
+    emit(traceQuadric.zz);
+    emit(traceQuadric.z);
+    emit(traceQuadric.constant);
+    emit(traceQuadric.clipLow);
+    emit(traceQuadric.clipHigh);
+    emit(traceQuadric.isEllipsoid);
+    emit(traceQuadric.padding0);
+    emit(traceQuadric.padding1);
 }
 
 void emitGeometry() {
@@ -118,7 +137,7 @@ void emitGeometry() {
     emit(instance.objectToWorld0);
     emit(instance.objectToWorld1);
     emit(instance.objectToWorld2);
-    emit(instance.firstTriangle);
+    emit(instance.firstPrimitive);
     emit(instance.material);
     emit(instance.flags);
     emit(instance.padding);
@@ -132,6 +151,12 @@ void emitGeometry() {
     emit(vertex.v);
     emit(vertex.tangent);
     emit(vertex.padding);
+    emit(quadric.radii);
+    emit(quadric.zz);
+    emit(quadric.z);
+    emit(quadric.constant);
+    emit(quadric.height);
+    emit(quadric.isEllipsoid);
 }
 
 void emitMaterials() {

@@ -58,7 +58,7 @@ TEST_F(Slivers, AgreeWithOracle) {
     const OracleCase oracle(scene, raysAtNeedles(mesh, 100'000), 0.2);
     for (const RenderSettings& settings : everyLayoutAndTest()) {
         RayCaster caster(device_, scene, settings);
-        EXPECT_GE(caster.prepared().tracer->traceData()->skippedTriangles, 300u) << nameOf(settings);
+        EXPECT_GE(caster.prepared().tracer->traceData().skipped, 300u) << nameOf(settings);
         const std::vector<shared::HitData> hits = caster.closest(oracle.rays);
         size_t decidable = 0, wrong = 0, met = 0;
         for (size_t i = 0; i < hits.size(); ++i) {

@@ -43,6 +43,10 @@ Mesh box(uint32_t material, glm::vec3 lo, glm::vec3 hi);
 /// A mesh of the accelerators' tests.
 Mesh meshOf(const accel_test::TestMesh& mesh, uint32_t material);
 
+/// Quadrics of each kind, cut by their planes, moved, turned, mirrored and sheared: 40 instances of five meshes of
+/// several quadrics each, among a few triangles.
+Scene quadricScene(uint32_t seed);
+
 /// Replaces the cameras by one.
 void lookAt(Scene& scene, glm::vec3 position, glm::vec3 target, float fovYRadians);
 

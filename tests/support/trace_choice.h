@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/gpu/device.h"
 #include "engine/render/render_settings.h"
 
 /// What a software traversal can be made of.
@@ -14,11 +15,17 @@ std::vector<RenderSettings> everyLayout();
 /// The default settings with each of layouts() and each of triangleTests().
 std::vector<RenderSettings> everyLayoutAndTest();
 
-/// Builder, layout, triangle test, and whether instances are kept.
+/// Tracer, builder, layout, triangle test, and whether instances are kept.
 std::string nameOf(const RenderSettings& settings);
 
 /// The settings that keep a tree a mesh below instances, where a scene shows a mesh more than once.
 RenderSettings twoLevels(RenderSettings settings);
+
+/// The default settings with each tracer that the device runs, by trees of each kind.
+std::vector<RenderSettings> everyTracer(const DeviceDescription& device);
+
+/// Those over the driver's structures alone.
+std::vector<RenderSettings> hardwareTracers(const DeviceDescription& device);
 
 /// The settings with the tracer that walks no tree.
 RenderSettings bruteForce(RenderSettings settings);

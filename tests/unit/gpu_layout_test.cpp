@@ -41,12 +41,15 @@ struct Structs {
     shared::RenderPush push;
     shared::RayData ray;
     shared::HitData hit;
+    shared::RayCounts counts;
     shared::RaysPush raysPush;
     shared::TraceTriangle traceTriangle;
     shared::TraceInstance traceInstance;
+    shared::TraceQuadric traceQuadric;
     std::array<shared::InstanceData, 2> instances{};  ///< the second is read, lest a stride of 0 go unseen
     shared::TriangleData triangle;
     shared::VertexData vertex;
+    shared::QuadricData quadric;
     std::array<shared::MaterialData, 2> materials{};
     shared::TextureData texture;
     shared::EmissiveData emissive;
@@ -65,21 +68,26 @@ void numberBuffers(Numbering& n, Structs& s) {
     n.assign(s.film.squareLo, s.film.padding);
     n.assign(s.push.firstTile, s.push.firstRow, s.push.firstSample, s.push.sampleCount, s.push.firstLane, s.push.laneCount);
     n.assign(s.ray.origin, s.ray.tMin, s.ray.direction, s.ray.tMax);
-    n.assign(s.hit.t, s.hit.u, s.hit.v, s.hit.instance, s.hit.primitive, s.hit.nodes, s.hit.triangles,
-             s.hit.instances);
+    n.assign(s.hit.t, s.hit.u, s.hit.v, s.hit.instance, s.hit.primitive);
+    n.assign(s.counts.steps, s.counts.nodes, s.counts.boxesTested, s.counts.boxesHit, s.counts.primitivesTested);
+    n.assign(s.counts.primitivesHit, s.counts.instances, s.counts.stackHigh);
     n.assign(s.raysPush.count, s.raysPush.anyHit);
 }
 
-void numberTraversal(Numbering& n, shared::TraceTriangle& t, shared::TraceInstance& i) {
+void numberTraversal(Numbering& n, shared::TraceTriangle& t, shared::TraceInstance& i, shared::TraceQuadric& q) {
     n.assign(t.p0, t.instance, t.p1, t.primitive, t.p2, t.opacity);
     n.assign(i.worldToObject0, i.worldToObject1, i.worldToObject2, i.gridOrigin, i.root, i.gridStep, i.instance);
-    n.assign(i.firstTriangle, i.triangleCount, i.padding0, i.padding1);
+    n.assign(i.firstSlot, i.slotCount, i.opaqueSlots, i.triangleSlots);
+    n.assign(q.toCanonical0, q.toCanonical1, q.toCanonical2, q.zz, q.z, q.constant, q.clipLow, q.clipHigh);
+    n.assign(q.isEllipsoid, q.padding0, q.padding1);
 }
 
-void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData& t, shared::VertexData& v) {
-    n.assign(i.objectToWorld0, i.objectToWorld1, i.objectToWorld2, i.firstTriangle, i.material, i.flags, i.padding);
+void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData& t, shared::VertexData& v,
+                    shared::QuadricData& q) {
+    n.assign(i.objectToWorld0, i.objectToWorld1, i.objectToWorld2, i.firstPrimitive, i.material, i.flags, i.padding);
     n.assign(t.v0, t.v1, t.v2, t.padding);
     n.assign(v.position, v.normal, v.u, v.v, v.tangent, v.padding);
+    n.assign(q.radii, q.zz, q.z, q.constant, q.height, q.isEllipsoid);
 }
 
 void numberMaterials(Numbering& n, shared::MaterialData& m, shared::TextureData& t) {
@@ -99,8 +107,8 @@ std::vector<uint32_t> numberAll(Structs& s) {
     Numbering numbering;
     numberFrame(numbering, s.frame);
     numberBuffers(numbering, s);
-    numberTraversal(numbering, s.traceTriangle, s.traceInstance);
-    numberGeometry(numbering, s.instances[1], s.triangle, s.vertex);
+    numberTraversal(numbering, s.traceTriangle, s.traceInstance, s.traceQuadric);
+    numberGeometry(numbering, s.instances[1], s.triangle, s.vertex, s.quadric);
     numberMaterials(numbering, s.materials[1], s.texture);
     numberLights(numbering, s.emissive, s.punctual);
     return numbering.bits();
@@ -157,27 +165,24 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.buffer(shared::kBindFilm, s.film);
     inputs.buffer(shared::kBindRays, s.ray);
     inputs.buffer(shared::kBindHits, s.hit);
-    inputs.buffer(20, s.raysPush);
-    inputs.buffer(21, s.traceTriangle);
-    inputs.buffer(22, s.traceInstance);
-    inputs.buffer(23, s.triangle);
-    inputs.buffer(24, s.vertex);
-    inputs.buffer(25, s.texture);
-    inputs.buffer(26, s.emissive);
-    inputs.buffer(27, s.punctual);
-    inputs.buffer(28, result);
+    inputs.buffer(40, s.raysPush);
+    inputs.buffer(41, s.traceTriangle);
+    inputs.buffer(42, s.traceInstance);
+    inputs.buffer(43, s.triangle);
+    inputs.buffer(44, s.vertex);
+    inputs.buffer(45, s.texture);
+    inputs.buffer(46, s.emissive);
+    inputs.buffer(47, s.punctual);
+    inputs.buffer(shared::kBindCounts, s.counts);
+    inputs.buffer(49, s.traceQuadric);
+    inputs.buffer(50, s.quadric);
+    inputs.buffer(48, result);
     inputs.texels(shared::kBindInstances, s.instances);
     inputs.texels(shared::kBindMaterials, s.materials);
     const KernelLayout layout = inputs.bind(sizeof(shared::RenderPush));
-    const PipelineHandle pipeline =
-        makeComputePipeline(device_, layout, RAYLAB_BINARY_DIR "/tests/layout.comp.spv", {});
+    const Kernel kernel = makeComputeKernel(device_, layout, RAYLAB_BINARY_DIR "/tests/layout.comp.spv", {});
     device_.run("layout", [&](VkCommandBuffer commands) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.pipelineLayout.get(), 0, 1,
-                                &layout.set, 0, nullptr);
-        vkCmdPushConstants(commands, layout.pipelineLayout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(s.push),
-                           &s.push);
-        vkCmdDispatch(commands, 1, 1, 1);
+        launch(device_, commands, layout, kernel, {}, &s.push, 1);
     });
     download(device_, inputs.last(), std::as_writable_bytes(std::span(result)));
     for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(result[i], expected[i]) << "scalar " << i;

@@ -83,18 +83,22 @@ TEST_F(Layouts, CountingChangesNoHit) {
     const std::vector<shared::RayData> rays = randomRays(scene, 2000, 98);
     for (const RenderSettings& layout : everyLayout()) {
         RayCaster caster(device_, scene, twoLevels(layout));
-        const std::vector<shared::HitData> counted = caster.count(rays, false);
-        EXPECT_EQ(countDifferentHits(counted, caster.closest(rays)), 0u) << layout.layout;
-        size_t nodes = 0, triangles = 0, instances = 0, hits = 0;
-        for (const shared::HitData& hit : counted) {
-            nodes += hit.nodes;
-            triangles += hit.triangles;
-            instances += hit.instances;
-            hits += hit.t >= 0.0f ? 1u : 0u;
+        const CountedHits counted = caster.count(rays, false);
+        EXPECT_EQ(countDifferentHits(counted.hits, caster.closest(rays)), 0u) << layout.layout;
+        size_t nodes = 0;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const shared::RayCounts& c = counted.counts[i];
+            nodes += c.nodes;
+            const uint32_t hits = counted.hits[i].t >= 0.0f ? 1u : 0u;
+            EXPECT_GE(c.primitivesHit, hits) << layout.layout;
+            EXPECT_GE(c.primitivesTested, c.primitivesHit) << layout.layout;
+            EXPECT_GE(c.instances, hits) << layout.layout;
+            EXPECT_GE(c.boxesTested, c.boxesHit) << layout.layout;
+            EXPECT_GE(c.boxesTested, c.nodes) << layout.layout;
+            EXPECT_GE(c.steps, c.nodes) << layout.layout;
+            EXPECT_LE(c.stackHigh, caster.prepared().tracer->traceData().stackEntries) << layout.layout;
         }
         EXPECT_GT(nodes, rays.size()) << layout.layout;
-        EXPECT_GE(triangles, hits) << layout.layout;
-        EXPECT_GE(instances, hits) << layout.layout;
     }
 }
 

@@ -1,11 +1,21 @@
 #include <iostream>
 
 #include "engine/gpu/device.h"
+#include "engine/render/tracer.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/options.h"
 
 namespace raylab {
 namespace {
+
+nlohmann::ordered_json tracersJson(const DeviceDescription& d) {
+    nlohmann::ordered_json tracers;
+    for (const std::string& name : tracerNames()) {
+        const std::string missing = missingForTracer(name, d);
+        tracers[name] = {{"runs", missing.empty()}, {"missing", missing}};
+    }
+    return tracers;
+}
 
 nlohmann::ordered_json deviceJson(const DeviceDescription& d) {
     return {{"index", d.index},
@@ -17,7 +27,17 @@ nlohmann::ordered_json deviceJson(const DeviceDescription& d) {
             {"maxStorageBufferRange", d.maxStorageBufferRange},
             {"maxTexelBufferElements", d.maxTexelBufferElements},
             {"suitable", d.unsuitable.empty()},
-            {"unsuitable", d.unsuitable}};
+            {"unsuitable", d.unsuitable},
+            {"tracers", tracersJson(d)}};
+}
+
+std::string tracersText(const DeviceDescription& d) {
+    std::string text;
+    for (const std::string& name : tracerNames()) {
+        const std::string missing = missingForTracer(name, d);
+        text += (text.empty() ? "" : ", ") + name + (missing.empty() ? "" : " (no: " + missing + " is missing)");
+    }
+    return text;
 }
 
 ExitCode printDevices(const std::string& jsonPath) {
@@ -31,7 +51,7 @@ ExitCode printDevices(const std::string& jsonPath) {
         for (const DeviceDescription& d : devices)
             std::cout << d.index << ": " << d.name << " (" << d.kind << ", " << d.driver << ", Vulkan " << versionText(d.apiVersion)
                       << ", " << (d.memoryBytes >> 20) << " MiB)"
-                      << (d.unsuitable.empty() ? "" : " unsuitable: " + d.unsuitable) << "\n";
+                      << (d.unsuitable.empty() ? "\n   tracers: " + tracersText(d) : " unsuitable: " + d.unsuitable) << "\n";
     if (devices.empty()) throw Error("there is no Vulkan device; install mesa-vulkan-drivers", ExitCode::noDevice);
     return ExitCode::done;
 }

@@ -17,5 +17,8 @@ void addInfoCommand(CLI::App& app, Command& chosen);
 void addDevicesCommand(CLI::App& app, Command& chosen);
 void addCompareCommand(CLI::App& app, Command& chosen);
 void addBenchCommand(CLI::App& app, Command& chosen);
+void addCompareTracersCommand(CLI::App& app, Command& chosen);
+void addCountCommand(CLI::App& app, Command& chosen);
+void addConvertCommand(CLI::App& app, Command& chosen);
 
 }  // namespace raylab

@@ -18,6 +18,9 @@ ExitCode runCommandLine(int argc, char** argv) {
     addDevicesCommand(app, chosen);
     addCompareCommand(app, chosen);
     addBenchCommand(app, chosen);
+    addCompareTracersCommand(app, chosen);
+    addCountCommand(app, chosen);
+    addConvertCommand(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

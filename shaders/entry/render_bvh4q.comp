@@ -1,4 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "trace/software.glsl"
+#include "trace/bvh4q.glsl"
+#include "film/compute.glsl"
 #include "film/render_main.glsl"
