@@ -1,0 +1,54 @@
+#include "engine/image/image_io.h"
+#include "tests/cli/program.h"
+
+namespace raylab {
+namespace {
+
+using Count = ProgramTest;
+
+TEST_F(Count, WritesPicturesHistogramsAndJson) {
+    ASSERT_EQ(runProgram("count cornell --width 24 --height 16 --bounces 1 -o counts --json counts.json"), 0)
+        << text("err");
+    const Json counts = json("counts.json");
+    EXPECT_EQ(counts["schema"], "raylab.count/1");
+    ASSERT_EQ(counts["bounces"].size(), 2u);
+    EXPECT_EQ(counts["bounces"][0]["rays"], 24 * 16);
+    EXPECT_LE(counts["bounces"][1]["rays"], 24 * 16);
+    const std::vector<Layer> layers = readExrLayers(folder_ / "counts/bounce0.exr");
+    for (const char* name :
+         {"steps", "nodes", "boxesTested", "boxesHit", "primitivesTested", "primitivesHit", "instances", "stackHigh"}) {
+        const Json& field = counts["bounces"][0][name];
+        uint64_t rays = 0;
+        for (const Json& bin : field["histogram"]) rays += bin.get<uint64_t>();
+        EXPECT_EQ(rays, 24u * 16u) << name;
+        EXPECT_GE(field["most"], field["percentile99"]) << name;
+        EXPECT_GE(field["percentile99"], field["median"]) << name;
+        const auto layer = std::ranges::find(layers, name, &Layer::name);
+        ASSERT_NE(layer, layers.end()) << name;
+        double sum = 0.0;
+        for (const float value : layer->bitmap.pixels) sum += value;
+        EXPECT_NEAR(sum / (24.0 * 16.0), field["mean"].get<double>(), 1e-4) << name;
+        EXPECT_EQ(readImage(folder_ / "counts" / ("bounce1-" + std::string(name) + ".png")).width, 24) << name;
+    }
+    EXPECT_GT(counts["bounces"][0]["steps"]["mean"], 1.0);
+    EXPECT_NE(text("counts/histograms.csv").find("1,boxesHit,"), std::string::npos);
+}
+
+/// The tracer without a tree fetches no node and tests every triangle.
+TEST_F(Count, BruteForceTestsAll) {
+    ASSERT_EQ(runProgram("count cornell --width 8 --height 8 --bounces 0 --tracer brute --json brute.json"), 0)
+        << text("err");
+    ASSERT_EQ(runProgram("info cornell --json info.json"), 0);
+    const Json primary = json("brute.json")["bounces"][0];
+    EXPECT_EQ(primary["nodes"]["most"], 0);
+    EXPECT_EQ(primary["primitivesTested"]["mean"], json("info.json")["instancedTriangles"]);
+}
+
+TEST_F(Count, RefusesWhatItCannotDo) {
+    expectProgramRefuses("count nowhere.glb", "nowhere.glb");
+    writeText("taken", "");
+    expectProgramRefuses("count cornell --width 8 --height 8 -o taken", "taken");
+}
+
+}  // namespace
+}  // namespace raylab
