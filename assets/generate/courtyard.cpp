@@ -1,14 +1,11 @@
 #include "assets/generate/courtyard.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include "assets/generate/architecture.h"
 #include "assets/generate/building.h"
 #include "assets/generate/landscape.h"
 #include "assets/generate/noise.h"
 #include "assets/generate/ornaments.h"
 #include "assets/generate/plants.h"
-#include "assets/generate/statue.h"
 
 namespace raylab::assets {
 namespace {
@@ -116,15 +113,12 @@ void addStillLife(Builder& b) {
 
 }  // namespace
 
-Scene makeCourtyard() {
+Scene makeCourtyard(const Geometry& statue) {
     Scene scene;
     scene.name = "Courtyard";
     scene.sky = SkyDescription{
         .sunElevationRadians = glm::radians(38.0f), .sunAzimuthRadians = glm::radians(104.0f), .turbidity = 2.5f};
-    Palette palette;
-    Geometry statue;
-    tbb::parallel_invoke([&] { statue = makeStatue(); }, [&] { palette = addPalette(scene); });
-    Builder builder(scene, palette);
+    Builder builder(scene, addPalette(scene));
     addCamera(scene, "courtyard", {2.7f, 1.45f, 9.05f}, {3.1f, 1.82f, 0.0f}, glm::radians(39.0f));
     addCamera(scene, "statue", {1.3f, 2.3f, 2.3f}, {0.05f, 3.55f, -3.2f}, glm::radians(29.0f));
     addCamera(scene, "arcade", {-7.9f, 1.9f, 9.3f}, {-7.2f, 1.8f, 0.0f}, glm::radians(48.0f));

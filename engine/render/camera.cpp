@@ -76,4 +76,10 @@ void writeCamera(const Camera& camera, uint32_t width, uint32_t height, shared::
     frame.tilesPerRow = (width + shared::kTileSize - 1) / shared::kTileSize;
 }
 
+void writeLens(const Camera& camera, double lensRadius, double focusDistance, shared::FrameParams& frame) {
+    frame.lensRadius = static_cast<float>(lensRadius);
+    frame.focusDistance = focusDistance > 0.0 ? static_cast<float>(focusDistance)
+                                              : glm::length(camera.target - camera.position);
+}
+
 }  // namespace raylab

@@ -15,4 +15,8 @@ Camera chooseCamera(const Scene& scene, const std::string& text);
 /// The fields of the camera and of the image's size (methods.md, "Common").
 void writeCamera(const Camera& camera, uint32_t width, uint32_t height, shared::FrameParams& frame);
 
+/// The thin lens: `lensRadius` in scene units, focal length over twice the f-number (0: a pinhole); what lies
+/// `focusDistance` along the axis is sharp. 0: where the camera's target is.
+void writeLens(const Camera& camera, double lensRadius, double focusDistance, shared::FrameParams& frame);
+
 }  // namespace raylab

@@ -53,7 +53,7 @@ FilmImage Film::read(Device& device) const {
 FilmImage developFilm(const std::vector<shared::FilmPixel>& pixels, uint32_t width, uint32_t height) {
     const auto w = static_cast<int>(width), h = static_cast<int>(height);
     FilmImage image{Bitmap(w, h, 3), Bitmap(w, h, 3), Bitmap(w, h, 1)};
-    double squaredError = 0.0;
+    double squaredError = 0.0, kept = 0.0, clamped = 0.0;
     for (size_t i = 0; i < pixels.size(); ++i) {
         const shared::FilmPixel& p = pixels[i];
         const double n = p.count;
@@ -67,11 +67,14 @@ FilmImage developFilm(const std::vector<shared::FilmPixel>& pixels, uint32_t wid
             image.mean.pixels[3 * i + c] = static_cast<float>(mean[c]);
             image.variance.pixels[3 * i + c] = static_cast<float>(variance);
         }
+        kept += luminance(mean) * n;
+        clamped += static_cast<double>(p.clamped);
         image.samples.pixels[i] = static_cast<float>(p.count);
         image.rays += p.rays;
         image.nonFinitePixels += p.nonFinite > 0 ? 1 : 0;
         squaredError += luminance(error) * luminance(error) / (luminance(mean) * luminance(mean) + kRelativeErrorFloor);
     }
+    image.clampedEnergy = clamped > 0.0 ? clamped / (kept + clamped) : 0.0;
     image.estimatedRelativeError = std::sqrt(squaredError / static_cast<double>(pixels.size()));
     return image;
 }

@@ -16,6 +16,7 @@ struct FilmImage {
     Bitmap samples;   ///< one channel: samples a pixel
     uint64_t rays = 0;                   ///< traced in all
     uint64_t nonFinitePixels = 0;        ///< pixels in which a sample was infinite or NaN (and was left out)
+    double clampedEnergy = 0;            ///< luminance that clamping took away, over what there would be without it
     double estimatedRelativeError = 0;   ///< root of the mean relative variance of the pixels' luminance: an estimate of sqrt(relMSE)
 };
 

@@ -50,7 +50,14 @@ GeometryData packGeometry(const Scene& scene);
 /// Throws Error where the textures together have more texels than 32 bits address.
 MaterialTables packMaterials(const Scene& scene);
 
+/// What materials say to the Phong model, one a material; isGiven = 0 where they say nothing.
+std::vector<shared::PhongData> packPhong(const Scene& scene);
+
+/// How next event estimation chooses: in proportion to the power that lights send out; or uniformly: kinds of light,
+/// punctual lights and the area of lamps evenly.
+enum class LightChoice { power, uniform };
+
 /// `materials` gets its emission weights. `sceneRadius` weighs lights at infinity against the others.
-LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials);
+LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, LightChoice choice = LightChoice::power);
 
 }  // namespace raylab

@@ -20,6 +20,7 @@ constexpr TexelBinding kTriangles = kWords(shared::kBindTriangles, "triangles");
 constexpr TexelBinding kVertices = kWords(shared::kBindVertices, "vertices");
 constexpr TexelBinding kQuadrics = kWords(shared::kBindQuadrics, "quadrics");
 constexpr TexelBinding kMaterials = kWords(shared::kBindMaterials, "materials");
+constexpr TexelBinding kPhong = kWords(shared::kBindPhong, "Phong materials");
 constexpr TexelBinding kTextures = kWords(shared::kBindTextures, "textures");
 constexpr TexelBinding kTexels = {shared::kBindTexels, "texels", VK_FORMAT_R32_UINT, 4};
 constexpr TexelBinding kEmissive = kWords(shared::kBindEmissive, "emissive triangles");
@@ -29,7 +30,7 @@ constexpr TexelBinding kAlias = {shared::kBindEnvironmentAlias, "environment ali
 
 }  // namespace
 
-GpuScene::GpuScene(Device& device, const Scene& scene) {
+GpuScene::GpuScene(Device& device, const Scene& scene, LightChoice lightChoice) {
     const auto add = [&](const TexelBinding& b, const auto& data) {
         buffers_.push_back(
             {b.binding, makeTexelBuffer(device, b.name, std::as_bytes(std::span(data)), b.format, b.bytes)});
@@ -37,7 +38,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene) {
     const Bounds bounds = sceneBounds(scene);
     diagonal_ = glm::length(bounds.hi - bounds.lo);
     MaterialTables materials = packMaterials(scene);
-    lights_ = packLights(scene, 0.5f * diagonal_, materials);
+    lights_ = packLights(scene, 0.5f * diagonal_, materials, lightChoice);
     {
         const GeometryData geometry = packGeometry(scene);
         add(kInstances, geometry.instances);
@@ -46,6 +47,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene) {
         add(kQuadrics, geometry.quadrics);
     }
     add(kMaterials, materials.materials);
+    add(kPhong, packPhong(scene));
     add(kTextures, materials.textures);
     add(kTexels, materials.texels);
     add(kEmissive, lights_.emissive);
@@ -62,7 +64,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene) {
 
 std::vector<BindingInfo> GpuScene::bindings() {
     std::vector<BindingInfo> infos;
-    for (const TexelBinding& b : {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kTextures, kTexels, kEmissive, kPunctual,
+    for (const TexelBinding& b : {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kPhong, kTextures, kTexels, kEmissive, kPunctual,
                                   kEnvironment, kAlias})
         infos.push_back({b.binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
     return infos;

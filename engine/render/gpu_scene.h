@@ -12,7 +12,7 @@ namespace raylab {
 /// A scene on the device, apart from what a tracer builds: geometry for shading, materials, textures, lights.
 class GpuScene {
 public:
-    GpuScene(Device& device, const Scene& scene);
+    GpuScene(Device& device, const Scene& scene, LightChoice lightChoice);
 
     static std::vector<BindingInfo> bindings();
     void bind(const Device& device, const KernelLayout& layout) const;

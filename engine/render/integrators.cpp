@@ -17,6 +17,9 @@ constexpr std::array kIntegrators = {
     IntegratorInfo{"primitive", shared::kIntegratorPrimitive, "a colour for each triangle", true},
     IntegratorInfo{"instance", shared::kIntegratorInstance, "a colour for each instance", true},
     IntegratorInfo{"barycentrics", shared::kIntegratorBarycentrics, "weights of the three vertices", true},
+    IntegratorInfo{"direct", shared::kIntegratorDirect, "Cook-Torrance under all punctual lights with hard shadows, and a chain of mirror images; no noise", false},
+    IntegratorInfo{"ao", shared::kIntegratorAo, "ambient occlusion: what of the hemisphere above the first hit is free", true},
+    IntegratorInfo{"whitted", shared::kIntegratorWhitted, "Whitted's ray tracer: Phong under all punctual lights, mirrored and refracted rays; no noise", false},
 };
 
 }  // namespace

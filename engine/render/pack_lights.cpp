@@ -27,15 +27,19 @@ glm::vec3 meanEmission(const Material& material, const MaterialTables& tables) {
     return material.emission * mean;
 }
 
-/// Weights of the materials by the luminance that they emit. Returns whether any does.
-bool weighMaterials(const Scene& scene, MaterialTables& tables) {
+/// Weights of the materials by the luminance that they emit, or 1 for each that emits. Returns that luminance; empty where
+/// none emits.
+std::vector<float> weighMaterials(const Scene& scene, MaterialTables& tables, LightChoice choice) {
+    std::vector<float> emitted;
     bool any = false;
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const glm::vec3 mean = meanEmission(scene.materials[i], tables);
-        tables.materials[i].emissionWeight = static_cast<float>(luminance(mean));
-        any = any || tables.materials[i].emissionWeight > 0.0f;
+        emitted.push_back(static_cast<float>(luminance(mean)));
+        const bool emits = emitted.back() > 0.0f;
+        tables.materials[i].emissionWeight = emits && choice == LightChoice::uniform ? 1.0f : emitted.back();
+        any = any || emits;
     }
-    return any;
+    return any ? emitted : std::vector<float>();
 }
 
 struct EmissiveSum {
@@ -43,7 +47,9 @@ struct EmissiveSum {
     double flux = 0.0;
 };
 
-void appendEmissive(const Scene& scene, uint32_t instanceIndex, float weight, LightTables& lights, EmissiveSum& sum) {
+/// The triangles of an instance whose material has `weight` and emits the luminance `emitted`.
+void appendEmissive(const Scene& scene, uint32_t instanceIndex, float weight, float emitted, LightTables& lights,
+                    EmissiveSum& sum) {
     const Instance& instance = scene.instances[instanceIndex];
     const Mesh& mesh = scene.meshes[instance.mesh];
     const glm::dmat4 matrix(instance.objectToWorld);
@@ -64,16 +70,18 @@ void appendEmissive(const Scene& scene, uint32_t instanceIndex, float weight, Li
         data.frontSign = mirrored ? -1.0f : 1.0f;
         lights.emissive.push_back(data);
         sum.weights.push_back(area * static_cast<double>(weight));
-        sum.flux += area * static_cast<double>(weight) * kPi * (scene.materials[mesh.material].doubleSided ? 2.0 : 1.0);
+        sum.flux += area * static_cast<double>(emitted) * kPi * (scene.materials[mesh.material].doubleSided ? 2.0 : 1.0);
     }
 }
 
-double packEmissive(const Scene& scene, MaterialTables& tables, LightTables& lights) {
-    if (!weighMaterials(scene, tables)) return 0.0;
+double packEmissive(const Scene& scene, MaterialTables& tables, LightChoice choice, LightTables& lights) {
+    const std::vector<float> emitted = weighMaterials(scene, tables, choice);
+    if (emitted.empty()) return 0.0;
     EmissiveSum sum;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const float weight = tables.materials[scene.meshes[scene.instances[i].mesh].material].emissionWeight;
-        if (weight > 0.0f) appendEmissive(scene, i, weight, lights, sum);
+        const uint32_t material = scene.meshes[scene.instances[i].mesh].material;
+        const float weight = tables.materials[material].emissionWeight;
+        if (weight > 0.0f) appendEmissive(scene, i, weight, emitted[material], lights, sum);
     }
     const std::vector<AliasEntry> alias = buildAliasTable(sum.weights);
     for (size_t i = 0; i < alias.size(); ++i) {
@@ -108,10 +116,13 @@ shared::PunctualData packPunctualLight(const Light& light) {
     return data;
 }
 
-double packPunctual(const Scene& scene, double sceneRadius, LightTables& lights) {
+double packPunctual(const Scene& scene, double sceneRadius, LightChoice choice, LightTables& lights) {
     std::vector<double> weights;
+    double flux = 0.0;
     for (const Light& light : scene.lights) {
-        weights.push_back(punctualFlux(light, sceneRadius));
+        const double ofLight = punctualFlux(light, sceneRadius);
+        flux += ofLight;
+        weights.push_back(choice == LightChoice::power ? ofLight : ofLight > 0.0 ? 1.0 : 0.0);
         lights.punctual.push_back(packPunctualLight(light));
     }
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -122,7 +133,7 @@ double packPunctual(const Scene& scene, double sceneRadius, LightTables& lights)
         lights.punctual[i].probability =
             static_cast<float>(total > 0.0 ? weights[i] / total : 1.0 / static_cast<double>(weights.size()));
     }
-    return total;
+    return flux;
 }
 
 double packEnvironment(const Scene& scene, double sceneRadius, LightTables& lights) {
@@ -154,17 +165,17 @@ double packEnvironment(const Scene& scene, double sceneRadius, LightTables& ligh
 
 }  // namespace
 
-LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials) {
+LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, LightChoice choice) {
     LightTables lights;
-    const double emissive = packEmissive(scene, materials, lights);
-    const double punctual = packPunctual(scene, sceneRadius, lights);
+    const double emissive = packEmissive(scene, materials, choice, lights);
+    const double punctual = packPunctual(scene, sceneRadius, choice, lights);
     const double environment = packEnvironment(scene, sceneRadius, lights);
     const double kinds = (lights.emissive.empty() ? 0.0 : 1.0) + (lights.punctual.empty() ? 0.0 : 1.0) +
                          (lights.environment.empty() ? 0.0 : 1.0);
     const double total = emissive + punctual + environment;
     const auto share = [&](double flux, bool present) {
         if (!present) return 0.0f;
-        const double byFlux = total > 0.0 ? flux / total : 1.0 / kinds;
+        const double byFlux = total > 0.0 && choice == LightChoice::power ? flux / total : 1.0 / kinds;
         return static_cast<float>((1.0 - kEvenShare) * byFlux + kEvenShare / kinds);
     };
     lights.shareEmissive = share(emissive, !lights.emissive.empty());

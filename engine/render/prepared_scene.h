@@ -17,6 +17,8 @@ struct PreparedScene {
     uint32_t kernelNeeds = 0;  ///< mask that kernels are specialised to
     std::unique_ptr<GpuScene> gpu;
     std::unique_ptr<Tracer> tracer;
+    TexelBuffer samplerMask;  ///< of the blue-noise sampler
+    LightChoice lightChoice = LightChoice::power;
     Camera camera;
     TraceConfig traceConfig;  ///< adapted to the tracer
     double packSeconds = 0.0;  ///< packing and uploading of what is not the tracer's

@@ -3,6 +3,7 @@
 #include "engine/accel/builders.h"
 #include "engine/accel/layout.h"
 #include "engine/render/integrators.h"
+#include "engine/render/sampling.h"
 #include "engine/render/tonemap.h"
 #include "engine/render/tracer.h"
 #include "engine/render/triangle_record.h"
@@ -28,6 +29,20 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"depth", &S::depth, "events", "scattering events of a path at most", 0, 1e6},
         {"roulette-depth", &S::rouletteDepth, "events", "Russian roulette may end a path after so many", 0, 1e6},
         {"integrator", &S::integrator, "", "method, or what to show of the first hit", 0, 0, integratorNames()},
+        {"fresnel", &S::fresnel, "", "direct: Schlick's approximation, or the equations of dielectrics and metals", 0, 0, {"schlick", "exact"}},
+        {"geometry", &S::geometry, "", "direct: masking and shadowing of microfacets", 0, 0, {"schlick-ggx-direct", "schlick-ggx-ibl", "smith-correlated", "smith-separable"}},
+        {"alpha-mapping", &S::alphaMapping, "", "direct: from roughness to the alpha of GGX", 0, 0, {"squared", "linear"}},
+        {"shadows", &S::shadows, "", "direct, whitted: of punctual lights; glass: dimmed and tinted by what they pass through (direct: hard)", 0, 0, {"none", "hard", "glass"}},
+        {"mirror-roughness", &S::mirrorRoughness, "", "direct: surfaces less rough than this are mirrors", 0, 1},
+        {"ao-rays", &S::aoRays, "rays", "ao: of a sample", 1, 65536},
+        {"ao-distance", &S::aoDistance, "scene units", "ao: what is further away does not occlude; 0: everything does", 0, 1e30},
+        {"ambient", &S::ambient, "radiance", "direct, whitted: light from everywhere that diffuse surfaces scatter", 0, 1e9},
+        {"attenuation", &S::attenuation, "", "whitted: of point and spot lights: none, 1/d, 1/d^2, all 1 at distance d = 1", 0, 0, {"none", "linear", "quadratic"}},
+        {"highlight", &S::highlight, "", "whitted: Phong's, or Blinn's with the half vector", 0, 0, {"phong", "blinn-phong"}},
+        {"reflection", &S::reflection, "", "whitted: what is mirrored by the Fresnel equations, or by the material's fixed share", 0, 0, {"fresnel", "fixed"}},
+        {"threshold", &S::threshold, "", "direct, whitted: a mirrored or refracted ray ends where its light counts less than this", 0, 1},
+        {"beyond", &S::beyond, "", "whitted: what rays beyond --depth show: nothing, or the ambient light", 0, 0, {"black", "average"}},
+        {"antialias", &S::antialias, "", "where samples lie in a pixel: by --filter; 1: all in the middle; 4: on a grid of four, in turn (--spp 4)", 0, 0, {"filter", "1", "4"}},
         {"tracer", &S::tracer, "", "how rays find triangles", 0, 0, tracerNames()},
         {"builder", &S::builder, "", "how the BVH over triangles is built", 0, 0, builderNames()},
         {"layout", &S::layout, "", "how the BVH is laid out for the kernel; auto: what bench --tune found best on the device", 0, 0, layoutChoices()},
@@ -43,6 +58,13 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"bvh-cache", &S::bvhCache, "", "keep trees on disk, in $XDG_CACHE_HOME/raylab/bvh, and take them from there"},
         {"needs", &S::needs, "", "what the kernel contains: what the scene needs, or everything", 0, 0, {"scene", "full"}},
         {"camera", &S::camera, "", "number or name of a camera of the scene, or px,py,pz,tx,ty,tz,fov: position, target, vertical degrees"},
+        {"sampler", &S::sampler, "", "random numbers of a pixel; stratified wants all of --spp, blue-noise few samples", 0, 0, samplerNames()},
+        {"filter", &S::filter, "", "how a pixel weighs the image around it", 0, 0, filterNames()},
+        {"filter-radius", &S::filterRadius, "pixels", "of the filter; 0: its usual (box 0.5, tent 1, blackman-harris and gaussian 1.5)", 0, 16},
+        {"lens-radius", &S::lensRadius, "scene units", "of a thin lens: focal length / (2 x f-number); 0: a pinhole, all is sharp", 0, 1e6},
+        {"focus-distance", &S::focusDistance, "scene units", "that is sharp, along the axis of view; 0: where the camera's target is", 0, 1e9},
+        {"clamp", &S::clamp, "radiance", "cut samples at this largest component: fewer fireflies, light is lost (and reported); 0: off", 0, 1e30},
+        {"light-choice", &S::lightChoice, "", "which light is sampled: by power, or uniformly (lamps by their area alone)", 0, 0, {"power", "uniform"}},
         {"time-limit", &S::timeLimit, "s", "stop rendering after so long, once every pixel has a sample; 0: no limit", 0, 1e9},
         {"target-error", &S::targetError, "", "stop where the estimated relative error is below; 0: no target", 0, 1e3},
         {"environment", &S::environment, "", "auto (the scene's, or a sky where nothing else gives light), none, sky, white, or an image file"},

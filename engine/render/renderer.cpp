@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/stopwatch.h"
+#include "engine/render/render_constants.h"
 #include "shaders/shared/bindings.h"
 
 namespace raylab {
@@ -44,8 +45,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     bindBuffer(device, layout_, kFilmBinding, film_.buffer(), 0, film_.bandBytes());
     times_.build = prepared_.tracer->buildSeconds();
     times_.upload = prepared_.tracer->uploadSeconds() + prepared_.packSeconds + watch.restart();
-    kernel_ = makeSceneKernel(device, prepared_, layout_, KernelKind::render,
-                              {{shared::kSpecIntegrator, findIntegrator(settings.integrator).id}});
+    kernel_ = makeSceneKernel(device, prepared_, layout_, KernelKind::render, renderConstants(settings));
     const uint32_t tileRows = (frame_.height + shared::kTileSize - 1) / shared::kTileSize;
     blockCount_ = frame_.tilesPerRow * tileRows * kBlocksPerTile;
     dispatch(0, 1, 0, 0);  // lavapipe compiles at the first dispatch

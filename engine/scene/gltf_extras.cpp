@@ -18,13 +18,6 @@ std::optional<JsonView> findExtras(const JsonView& root) {
     return raylabExtras(root);
 }
 
-double numberBetween(const JsonView& owner, const char* key, double low, double high, double fallback) {
-    const double value = owner.number(key, fallback);
-    if (value < low || value > high)
-        owner.fail(std::string("needs ") + key + " between " + std::to_string(low) + " and " + std::to_string(high));
-    return value;
-}
-
 SkyDescription readSky(const JsonView& sun) {
     SkyDescription sky;
     sky.sunElevationRadians = static_cast<float>(glm::radians(numberBetween(sun, "elevation", -90.0, 90.0, 45.0)));
@@ -60,6 +53,13 @@ void readEnvironment(const GltfDocument& document, const JsonView& extras, Scene
 }
 
 }  // namespace
+
+double numberBetween(const JsonView& owner, const char* key, double low, double high, double fallback) {
+    const double value = owner.number(key, fallback);
+    if (value < low || value > high)
+        owner.fail(std::string("needs ") + key + " between " + std::to_string(low) + " and " + std::to_string(high));
+    return value;
+}
 
 std::optional<JsonView> raylabExtras(const JsonView& owner) {
     if (!owner.has("extras") || !owner.json()["extras"].is_object()) return std::nullopt;

@@ -10,6 +10,9 @@ namespace raylab {
 /// `extras.raylab` of a part of the file. Other programs may store anything under `extras`: only an object counts.
 std::optional<JsonView> raylabExtras(const JsonView& owner);
 
+/// The number under `key`, or the fallback. Throws Error where it is out of range.
+double numberBetween(const JsonView& owner, const char* key, double low, double high, double fallback);
+
 /// What glTF has no place for, from `extras.raylab` of the shown scene, or else of the whole file:
 ///
 ///     "extras": {"raylab": {"environment": "sky.hdr", "environmentScale": 1.0,

@@ -6,6 +6,7 @@
 
 #include "engine/scene/data_uri.h"
 #include "engine/scene/gltf_accessor.h"
+#include "engine/scene/gltf_extras.h"
 #include "engine/scene/resource_path.h"
 
 namespace raylab {
@@ -163,6 +164,29 @@ void readSpecular(Draft& draft, const JsonView& extensions) {
         specular.has("specularTexture") || specular.has("specularColorFactor") || specular.has("specularColorTexture");
 }
 
+glm::vec3 colorWithin(const JsonView& owner, const char* key, glm::vec3 fallback) {
+    const glm::vec3 color = owner.vec3(key, fallback);
+    if (glm::any(glm::lessThan(color, glm::vec3(0.0f))) || glm::any(glm::greaterThan(color, glm::vec3(1.0f))))
+        owner.fail(std::string("needs a ") + key + " of three numbers between 0 and 1");
+    return color;
+}
+
+/// `extras.raylab.phong`: docs/scene-format.md.
+std::optional<PhongMaterial> readPhong(const JsonView& json) {
+    const std::optional<JsonView> extras = raylabExtras(json);
+    if (!extras || !extras->has("phong")) return std::nullopt;
+    const JsonView view = extras->object("phong");
+    PhongMaterial phong;
+    phong.diffuse = colorWithin(view, "diffuse", phong.diffuse);
+    phong.specular = colorWithin(view, "specular", phong.specular);
+    phong.exponent = static_cast<float>(numberBetween(view, "exponent", 1.0, 1e4, double{phong.exponent}));
+    phong.mirror = colorWithin(view, "mirror", phong.mirror);
+    phong.tint = colorWithin(view, "tint", phong.tint);
+    phong.reflection = static_cast<float>(numberBetween(view, "reflection", 0.0, 1.0, double{phong.reflection}));
+    phong.ior = static_cast<float>(numberBetween(view, "ior", 1.0, 1e6, double{phong.ior}));
+    return phong;
+}
+
 void makeUnlit(Material& material) {
     material.emission = material.baseColor;
     material.emissionTexture = material.baseColorTexture;
@@ -206,6 +230,7 @@ Draft readMaterial(Context& context, const JsonView& json, size_t index) {
     readAlphaMode(material, json);
     readTransmission(draft, extensions);
     readSpecular(draft, extensions);
+    material.phong = readPhong(json);
     noteUnreadExtensions(draft, extensions);
     if (extensions.has("KHR_materials_unlit")) makeUnlit(material);
     if (draft.uvsDisagree)

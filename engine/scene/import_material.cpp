@@ -126,6 +126,27 @@ void readIllumination(const MaterialSource& source, float opacity, glm::vec3 spe
         makeMirror(specular, material);
 }
 
+/// The model of the format itself; `material`: as it was made of it. Glass keeps of Kd what Tf leaves.
+PhongMaterial phongOf(const MaterialSource& source, glm::vec3 specular, const Material& material) {
+    PhongMaterial phong;
+    phong.diffuse = glm::min(colorOf(source, AI_MATKEY_COLOR_DIFFUSE, glm::vec3(0.8f)), glm::vec3(1.0f));
+    phong.specular = glm::min(specular, glm::vec3(1.0f));
+    phong.exponent = std::clamp(numberOf(source, AI_MATKEY_SHININESS, 1.0f), 1.0f, 1e4f);
+    phong.ior = std::min(material.ior, 1e6f);
+    if (material.transmission > 0.0f) {
+        phong.tint = material.baseColor;
+        phong.diffuse = glm::min(phong.diffuse, glm::vec3(1.0f) - phong.tint);
+        phong.mirror = glm::vec3(1.0f);
+        const float r0 = (phong.ior - 1.0f) / (phong.ior + 1.0f);
+        phong.reflection = r0 * r0;
+    } else if (material.metallic > 0.0f) {
+        phong.mirror = material.baseColor;
+        phong.reflection = 1.0f;
+        phong.ior = kOpaqueIor;
+    }
+    return phong;
+}
+
 Material readMaterial(const MaterialSource& source) {
     aiString name;
     source.material.Get(AI_MATKEY_NAME, name);
@@ -145,6 +166,10 @@ Material readMaterial(const MaterialSource& source) {
     if (opacity < 1.0f && material.alphaMode == AlphaMode::opaque) material.alphaMode = AlphaMode::blend;
     readIllumination(source, opacity, specular, material);
     if (material.transmission > 0.0f) material.alpha = 1.0f;
+    float roughness = 0.0f, metallic = 0.0f;
+    const bool isPhysical = source.material.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == aiReturn_SUCCESS ||
+                            source.material.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == aiReturn_SUCCESS;
+    if (!isPhysical) material.phong = phongOf(source, specular, material);
     material.roughness = std::clamp(numberOf(source, AI_MATKEY_ROUGHNESS_FACTOR, material.roughness), 0.0f, 1.0f);
     material.metallic = std::clamp(numberOf(source, AI_MATKEY_METALLIC_FACTOR, material.metallic), 0.0f, 1.0f);
     return material;

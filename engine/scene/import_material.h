@@ -16,6 +16,8 @@ namespace raylab {
 /// override.
 /// - Ke, map_Ke: emission. d, Tr: alpha, blended. map_d: alpha mask.
 /// - illum 4, 6, 7, 9, or Tf with d < 1: glass of colour Tf; illum 3, 5 with Ks: a mirror of colour Ks.
+/// - All of it literally as the material's PhongMaterial, unless Pr or Pm is there: Kd, Ks, Ns; mirrors reflect Ks; glass is
+/// tinted by Tf at each surface and keeps of Kd what Tf leaves.
 /// - Ni: index of refraction, 1.5 where it is missing or 1. norm, or map_Bump that is not grey: normal map.
 ///
 /// Without any material: defaultMaterial(). Appends to scene.materials, scene.warnings and `requests`.

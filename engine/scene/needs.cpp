@@ -57,6 +57,10 @@ bool hasTexture(const Material& m) {
            m.normalTexture != kNoTexture || m.emissionTexture != kNoTexture;
 }
 
+bool isLit(glm::vec3 color) { return glm::any(glm::greaterThan(color, glm::vec3(0.0f))); }
+
+bool hasPhongGloss(const Material& m) { return m.phong && (isLit(m.phong->specular) || isLit(m.phong->mirror)); }
+
 Need instancingNeed(const TreePlan& plan) {
     std::string reason = "all that is shown is in one tree in world space";
     if (plan.asked > 0)
@@ -133,11 +137,11 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
                      [](const Material& m) { return m.normalTexture != kNoTexture; }),
         materialNeed(shared::kNeedAlpha, "alpha", worn, "cut out or blended by alpha", isAlphaTested),
         materialNeed(shared::kNeedSpecular, "GGX reflection", worn, "that reflects",
-                     [](const Material& m) { return m.metallic > 0.0f || m.specular > 0.0f; }),
+                     [](const Material& m) { return m.metallic > 0.0f || m.specular > 0.0f || hasPhongGloss(m); }),
         materialNeed(shared::kNeedTransmission, "transmission", worn, "that light passes through",
-                     [](const Material& m) { return m.transmission > 0.0f; }),
+                     [](const Material& m) { return m.transmission > 0.0f || (m.phong && isLit(m.phong->tint)); }),
         materialNeed(shared::kNeedEmissive, "emissive triangles", worn, "that emits",
-                     [](const Material& m) { return glm::any(glm::greaterThan(m.emission, glm::vec3(0.0f))); }),
+                     [](const Material& m) { return isLit(m.emission); }),
         {shared::kNeedPunctual, "punctual lights", !scene.lights.empty(),
          scene.lights.empty() ? "none in the scene" : count(scene.lights.size(), "light", "lights")},
         {shared::kNeedEnvironment, "environment", scene.environment.has_value(),

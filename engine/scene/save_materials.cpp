@@ -69,6 +69,13 @@ void setAlphaMode(json& result, const Material& material) {
     if (material.alphaCutoff != 0.5f) result["alphaCutoff"] = material.alphaCutoff;
 }
 
+/// What glTF has no place for.
+json phongJson(const PhongMaterial& phong) {
+    return {{"diffuse", toJson(phong.diffuse)}, {"specular", toJson(phong.specular)}, {"exponent", phong.exponent},
+            {"mirror", toJson(phong.mirror)},   {"tint", toJson(phong.tint)},         {"reflection", phong.reflection},
+            {"ior", phong.ior}};
+}
+
 json materialJson(const Material& material, json& document) {
     json result = {{"name", material.name}, {"pbrMetallicRoughness", pbrJson(material)}};
     setTexture(result, "normalTexture", material.normalTexture);
@@ -81,6 +88,7 @@ json materialJson(const Material& material, json& document) {
     const json extensions = extensionsJson(material);
     for (const auto& [name, value] : extensions.items()) useExtension(document, name.c_str());
     if (!extensions.empty()) result["extensions"] = extensions;
+    if (material.phong) result["extras"]["raylab"]["phong"] = phongJson(*material.phong);
     return result;
 }
 

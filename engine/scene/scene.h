@@ -27,6 +27,23 @@ enum class AlphaMode : uint32_t { opaque = 0, mask = 1, blend = 2 };
 
 constexpr int32_t kNoTexture = -1;
 
+/// From this index of refraction on, a PhongMaterial is opaque: a metal (shaders/shared/scene.h has the kernels' number).
+constexpr float kOpaqueIor = 10000.0f;
+
+/// Material of Whitted's ray tracer: a diffuse part with a highlight, and a smooth part that mirrors and lets light through.
+/// Colours are within 0 and 1. The base colour's texture of the Material multiplies `diffuse`.
+struct PhongMaterial {
+    glm::vec3 diffuse{0.8f};  ///< k_d
+    glm::vec3 specular{0.0f};  ///< k_s, of the highlight
+    float exponent = 1.0f;     ///< p of the highlight, 1 to 10,000
+    glm::vec3 mirror{0.0f};    ///< multiplies mirrored light; of a metal: its reflectance at normal incidence
+    glm::vec3 tint{0.0f};      ///< multiplies light at each surface that it passes through; black: opaque
+    float reflection = 0.0f;   ///< r, fixed share of the light that is mirrored, where no Fresnel equations are asked for
+    float ior = 1.5f;          ///< n; kOpaqueIor and above: a metal
+
+    bool operator==(const PhongMaterial&) const = default;
+};
+
 /// Metallic-roughness material (glTF 2.0, appendix B) with transmission. Colours are linear sRGB primaries.
 /// Texture indices refer to Scene::textures; each texture multiplies its factor.
 struct Material {
@@ -48,6 +65,7 @@ struct Material {
     bool thin = true;          ///< transmission without refraction: a sheet, not the boundary of a volume
     float specular = 1.0f;     ///< scales the dielectric reflection; 0 makes the base purely Lambertian
     bool doubleSided = false;  ///< both faces emit; other shading is two-sided always
+    std::optional<PhongMaterial> phong;  ///< nothing: derived from the above
 };
 
 enum class QuadricKind : uint32_t { ellipsoid = 0, cylinder = 1, cone = 2, hyperboloid = 3, paraboloid = 4 };

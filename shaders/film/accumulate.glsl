@@ -3,7 +3,10 @@
 #ifndef RAYLAB_ACCUMULATE_GLSL
 #define RAYLAB_ACCUMULATE_GLSL
 
-#include "shared/frame.h"
+#include "lib/sampling.glsl"
+#include "lib/scene_buffers.glsl"
+
+layout(constant_id = kSpecClamp) const uint kClamp = 0;
 
 void addTwoFloat(inout vec3 hi, inout vec3 lo, vec3 value) {
     precise vec3 sum = hi + value;
@@ -25,11 +28,22 @@ vec3 squareResidue(vec3 value, vec3 square) {
     return residue;
 }
 
+// Scales a sample down whose largest component is beyond frame.clampRadiance: against fireflies, at the price of a bias that
+// the pixel keeps count of.
+vec3 clampSample(inout FilmPixel pixel, vec3 value) {
+    float largest = maxComponent(value);
+    if (largest <= frame.clampRadiance) return value;
+    vec3 kept = value * (frame.clampRadiance / largest);
+    pixel.clamped += luminance(value - kept);
+    return kept;
+}
+
 void addSample(inout FilmPixel pixel, vec3 value) {
     if (any(isnan(value)) || any(isinf(value))) {
         pixel.nonFinite += 1u;
         return;
     }
+    if (kClamp != 0u) value = clampSample(pixel, value);
     pixel.count += 1u;
     addTwoFloat(pixel.sumHi, pixel.sumLo, value);
     precise vec3 square = value * value;

@@ -2,16 +2,21 @@
 #ifndef RAYLAB_INTEGRATE_GLSL
 #define RAYLAB_INTEGRATE_GLSL
 
+#include "lib/camera.glsl"
+#include "integrators/ao.glsl"
+#include "integrators/direct.glsl"
 #include "integrators/path.glsl"
 #include "integrators/views.glsl"
-#include "lib/camera.glsl"
+#include "integrators/whitted.glsl"
 
 vec3 integrate(uvec2 pixel, uint sampleIndex) {
-    Sampler random = makeSampler(frame.seed, pixel.y * frame.width + pixel.x, sampleIndex);
-    vec3 direction = cameraDirection(pixel, sample2D(random, 0u));
-    Ray ray = Ray(frame.cameraPosition, 0.0, direction, kInfinity, 0u);
+    Sampler random = makeSampler(frame.seed, pixel, frame.width, sampleIndex);
+    Ray ray = cameraRay(pixel, random);
     RayCone cone = RayCone(0.0, frame.pixelSpread);
     if (kIntegrator == kIntegratorPath) return integratePath(ray, cone, random);
+    if (kIntegrator == kIntegratorDirect) return integrateDirect(ray, cone, random);
+    if (kIntegrator == kIntegratorAo) return integrateAo(ray, cone, random);
+    if (kIntegrator == kIntegratorWhitted) return integrateWhitted(ray, cone, random);
     return integrateView(ray, cone, random);
 }
 

@@ -4,9 +4,10 @@
 #define RAYLAB_INTEGRATOR_PATH_GLSL
 
 #include "lib/lights.glsl"
+#include "lib/sampler.glsl"
 #include "materials/materials.glsl"
 
-// Pairs of dimensions: pair 0 is the camera's; every bounce takes kPairsPerBounce from kPairFirstBounce on.
+// Pairs of dimensions: 0 and 1 are the camera's (lib/camera.glsl); every bounce takes kPairsPerBounce from kPairFirstBounce on.
 const uint kPairFirstBounce = 2u;
 const uint kPairsPerBounce = 6u;
 const uint kPairBsdf = 0u;

@@ -2,6 +2,7 @@
 #ifndef RAYLAB_INTEGRATOR_VIEWS_GLSL
 #define RAYLAB_INTEGRATOR_VIEWS_GLSL
 
+#include "lib/sampler.glsl"
 #include "lib/surface.glsl"
 
 vec3 colourOfId(uint id) {

@@ -1,12 +1,47 @@
-// Pinhole camera (methods.md, "Common").
+// Pinhole and thin-lens camera (methods.md, "Common").
 #ifndef RAYLAB_CAMERA_GLSL
 #define RAYLAB_CAMERA_GLSL
 
-#include "lib/scene_buffers.glsl"
+#include "lib/filter.glsl"
+#include "lib/sampler.glsl"
+#include "trace/common.glsl"
 
-vec3 cameraDirection(uvec2 pixel, vec2 jitter) {
+layout(constant_id = kSpecThinLens) const uint kThinLens = 0;
+layout(constant_id = kSpecAntialias) const uint kAntialias = kAntialiasFilter;
+
+// Pairs of dimensions that the camera takes: an integrator has the others.
+const uint kPairPixel = 0u;
+const uint kPairLens = 1u;
+
+// From the middle of the lens through a point of the image, at distance 1 along the axis.
+vec3 cameraVector(uvec2 pixel, vec2 jitter) {
     vec2 ndc = (vec2(pixel) + jitter) / vec2(frame.width, frame.height) * 2.0 - 1.0;
-    return normalize(frame.cameraForward + ndc.x * frame.cameraRight - ndc.y * frame.cameraUp);
+    return frame.cameraForward + ndc.x * frame.cameraRight - ndc.y * frame.cameraUp;
+}
+
+vec3 cameraDirection(uvec2 pixel, vec2 jitter) { return normalize(cameraVector(pixel, jitter)); }
+
+// Through a point of the lens to where the plane of focus has the image's point (Cook, Porter, Carpenter, "Distributed Ray
+// Tracing", SIGGRAPH 1984).
+Ray thinLensRay(uvec2 pixel, vec2 jitter, vec2 u) {
+    vec2 lens = frame.lensRadius * sampleDisc(u);
+    vec3 offset = lens.x * normalize(frame.cameraRight) + lens.y * normalize(frame.cameraUp);
+    vec3 direction = normalize(frame.focusDistance * cameraVector(pixel, jitter) - offset);
+    return Ray(frame.cameraPosition + offset, 0.0, direction, kInfinity, 0u);
+}
+
+// Where in its pixel a sample lies: by the filter, in the middle, or at (+-1/4, +-1/4) of it in turn.
+vec2 pixelPosition(Sampler random) {
+    if (kAntialias == kAntialiasCentre) return vec2(0.5);
+    if (kAntialias == kAntialiasGrid)
+        return vec2((random.index & 1u) != 0u ? 0.75 : 0.25, (random.index & 2u) != 0u ? 0.75 : 0.25);
+    return sampleFilter(sample2D(random, kPairPixel));
+}
+
+Ray cameraRay(uvec2 pixel, Sampler random) {
+    vec2 jitter = pixelPosition(random);
+    if (kThinLens != 0u) return thinLensRay(pixel, jitter, sample2D(random, kPairLens));
+    return Ray(frame.cameraPosition, 0.0, cameraDirection(pixel, jitter), kInfinity, 0u);
 }
 
 #endif

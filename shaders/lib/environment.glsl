@@ -48,8 +48,6 @@ vec3 environmentRadiance(vec3 d) {
     return environmentRadiance(d, pdf);
 }
 
-float sampleTent(float u) { return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u); }
-
 // A direction in proportion to the map: `choice` picks a texel, `within` moves it by a tent, which makes the density the
 // bilinear interpolation of the texels' own: exactly what environmentRadiance interpolates, small suns included.
 vec3 sampleEnvironment(vec2 choice, vec2 within) {

@@ -49,17 +49,14 @@ LightSample sampleEmissive(vec3 position, vec2 choice, vec2 u) {
     return LightSample(direction, distance, emission / pdf, pdf);
 }
 
-LightSample samplePunctual(vec3 position, vec2 choice) {
-    uint index = min(uint(choice.x * float(frame.punctualCount)), frame.punctualCount - 1u);
-    float threshold = uintBitsToFloat(texelFetch(punctualWords, int(index * kWordsPunctual + 1u)).w);
-    uint alias = texelFetch(punctualWords, int(index * kWordsPunctual + 2u)).w;
-    index = choice.y < threshold ? index : alias;
+// Light `index` as it reaches `position`. `probability`: with which samplePunctual chooses it.
+LightSample punctualLight(vec3 position, uint index, out float probability) {
     int at = int(index * kWordsPunctual);
     uvec4 w0 = texelFetch(punctualWords, at);
     vec3 axis = uintBitsToFloat(texelFetch(punctualWords, at + 1).xyz);
     vec3 intensity = uintBitsToFloat(texelFetch(punctualWords, at + 2).xyz);
     vec4 rest = uintBitsToFloat(texelFetch(punctualWords, at + 3));
-    intensity /= frame.sharePunctual * rest.x;
+    probability = rest.x;
     if (w0.w == kPunctualDirectional) return LightSample(-axis, kInfinity, intensity, 0.0);
     vec3 toLight = uintBitsToFloat(w0.xyz) - position;
     float distanceSquared = dot(toLight, toLight);
@@ -71,6 +68,16 @@ LightSample samplePunctual(vec3 position, vec2 choice) {
         intensity *= falloff * falloff;
     }
     return LightSample(direction, distance, intensity / distanceSquared, 0.0);
+}
+
+LightSample samplePunctual(vec3 position, vec2 choice) {
+    uint index = min(uint(choice.x * float(frame.punctualCount)), frame.punctualCount - 1u);
+    float threshold = uintBitsToFloat(texelFetch(punctualWords, int(index * kWordsPunctual + 1u)).w);
+    uint alias = texelFetch(punctualWords, int(index * kWordsPunctual + 2u)).w;
+    float probability;
+    LightSample light = punctualLight(position, choice.y < threshold ? index : alias, probability);
+    light.radiance /= frame.sharePunctual * probability;
+    return light;
 }
 
 LightSample sampleSky(vec2 choice, vec2 u) {

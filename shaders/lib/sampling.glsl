@@ -28,6 +28,19 @@ vec3 sampleCosineHemisphere(vec2 u, out float pdf) {
 
 float pdfCosineHemisphere(float cosTheta) { return max(cosTheta, 0.0) * kInvPi; }
 
+// Density 1 - |x| on [-1, 1].
+float sampleTent(float u) { return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u); }
+
+// Uniform on the unit disc; concentric, so that strata keep their neighbours (Shirley, Chiu, JGT 2(3), 1997).
+vec2 sampleDisc(vec2 u) {
+    vec2 p = 2.0 * u - 1.0;
+    if (p.x == 0.0 && p.y == 0.0) return p;
+    bool wide = abs(p.x) > abs(p.y);
+    float r = wide ? p.x : p.y;
+    float phi = wide ? 0.25 * kPi * (p.y / p.x) : 0.5 * kPi - 0.25 * kPi * (p.x / p.y);
+    return r * vec2(cos(phi), sin(phi));
+}
+
 // Uniform barycentrics of a triangle (weights of p1 and p2).
 vec2 sampleTriangle(vec2 u) {
     float r = sqrt(u.x);

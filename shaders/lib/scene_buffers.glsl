@@ -12,6 +12,14 @@ layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorPath;
 layout(constant_id = kSpecStackSize) const uint kStackSize = 64;
 layout(constant_id = kSpecCount) const uint kCount = 0;
 layout(constant_id = kSpecTriangle) const uint kTriangleTest = kTriangleWatertight;
+layout(constant_id = kSpecFresnel) const uint kFresnel = kFresnelSchlick;
+layout(constant_id = kSpecGeometry) const uint kGeometry = kGeometrySchlickDirect;
+layout(constant_id = kSpecAlpha) const uint kAlphaMapping = kAlphaSquared;
+layout(constant_id = kSpecShadows) const uint kShadows = kShadowsHard;
+layout(constant_id = kSpecAttenuation) const uint kAttenuation = kAttenuationQuadratic;
+layout(constant_id = kSpecHighlight) const uint kHighlight = kHighlightPhong;
+layout(constant_id = kSpecReflection) const uint kReflection = kReflectionFresnel;
+layout(constant_id = kSpecBeyond) const uint kBeyond = kBeyondBlack;
 
 bool needs(uint bit) { return (kNeeds & bit) != 0u; }
 
@@ -26,6 +34,7 @@ layout(set = 0, binding = kBindQuadrics) uniform usamplerBuffer quadricWords;
 layout(set = 0, binding = kBindTraceQuadrics) uniform usamplerBuffer traceQuadricWords;
 layout(set = 0, binding = kBindVertices) uniform usamplerBuffer vertexWords;
 layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer materialWords;
+layout(set = 0, binding = kBindPhong) uniform usamplerBuffer phongWords;
 layout(set = 0, binding = kBindTextures) uniform usamplerBuffer textureWords;
 layout(set = 0, binding = kBindTexels) uniform usamplerBuffer texels;
 layout(set = 0, binding = kBindEmissive) uniform usamplerBuffer emissiveWords;
@@ -58,6 +67,15 @@ MaterialData loadMaterial(uint material) {
     vec4 df = uintBitsToFloat(d);
     uvec4 e = needs(kNeedTextures) ? texelFetch(materialWords, at + 4) : uvec4(kNoTextureIndex);
     return MaterialData(a.xyz, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, df.x, df.y, df.z, d.w, e.x, e.y, e.z, e.w);
+}
+
+PhongData loadPhong(uint material) {
+    int at = int(material * kWordsPhong);
+    vec4 a = uintBitsToFloat(texelFetch(phongWords, at));
+    vec4 b = uintBitsToFloat(texelFetch(phongWords, at + 1));
+    vec4 c = uintBitsToFloat(texelFetch(phongWords, at + 2));
+    uvec4 d = texelFetch(phongWords, at + 3);
+    return PhongData(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, uintBitsToFloat(d.xyz), d.w);
 }
 
 vec3 decodeOctahedral(vec2 e) {

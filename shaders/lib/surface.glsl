@@ -30,6 +30,8 @@ struct Surface {
     float specular;
     bool thin;
     vec3 emission;  // towards wo
+    vec3 baseTexture;  // the colour that baseColor is multiplied by
+    uint material;
     float emissionWeight;
 };
 
@@ -246,13 +248,14 @@ Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
     s.geometricNormal = s.frontFace ? at.normal : -at.normal;
     s.normal = visibleNormal(s.frontFace ? shading : -shading, wo);
 
-    s.baseColor = material.baseColor;
+    s.material = data.material;
+    s.baseTexture = vec3(1.0);
     s.metallic = material.metallic;
     float roughness = material.roughness;
     s.emission = material.emission;
     if (needs(kNeedTextures)) {
         if (material.baseColorTexture != kNoTextureIndex)
-            s.baseColor *= fetchMaterialTexture(material.baseColorTexture, s.uv, lod, u).rgb;
+            s.baseTexture = fetchMaterialTexture(material.baseColorTexture, s.uv, lod, u).rgb;
         if (needs(kNeedSpecular) && material.metallicRoughnessTexture != kNoTextureIndex) {
             vec4 mr = fetchMaterialTexture(material.metallicRoughnessTexture, s.uv, lod, u);
             roughness *= mr.g;
@@ -261,6 +264,7 @@ Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
         if (material.emissionTexture != kNoTextureIndex)
             s.emission *= sampleTextureSharp(material.emissionTexture, s.uv).rgb;
     }
+    s.baseColor = material.baseColor * s.baseTexture;
     if (needs(kNeedSpecular) && s.metallic > 0.5) s.normal = reflectingNormal(s.normal, s.geometricNormal, wo);
     bool emits = s.frontFace || (material.flags & kMaterialDoubleSided) != 0u;
     s.emission = emits ? s.emission : vec3(0.0);

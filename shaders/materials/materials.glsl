@@ -23,17 +23,28 @@ struct Lobes {
     float specularShare;  // probability of the GGX lobe
 };
 
-Lobes lobesOf(Surface s, float cosO) {
-    vec3 diffuse = s.baseColor * (1.0 - s.metallic);
-    if (!needs(kNeedSpecular)) return Lobes(diffuse, vec3(0.0), 0.0, 0.0);
+vec3 diffuseAlbedo(Surface s) { return s.baseColor * (1.0 - s.metallic); }
+
+// Reflectance at normal and at grazing incidence.
+vec3 reflectance0(Surface s) {
     float r0 = (s.ior - 1.0) / (s.ior + 1.0);
-    vec3 f0 = mix(vec3(s.specular * r0 * r0), s.baseColor, s.metallic);
-    float f90 = mix(s.specular, 1.0, s.metallic);
+    return mix(vec3(s.specular * r0 * r0), s.baseColor, s.metallic);
+}
+float reflectance90(Surface s) { return mix(s.specular, 1.0, s.metallic); }
+
+Lobes lobesOf(Surface s, float cosO) {
+    vec3 diffuse = diffuseAlbedo(s);
+    if (!needs(kNeedSpecular)) return Lobes(diffuse, vec3(0.0), 0.0, 0.0);
+    vec3 f0 = reflectance0(s);
+    float f90 = reflectance90(s);
     float reflected = maxComponent(fresnelSchlick(f0, f90, cosO));
     float scattered = maxComponent(diffuse) * (1.0 - reflected);
     float share = reflected > 0.0 ? reflected / (reflected + scattered) : 0.0;
     return Lobes(diffuse, f0, f90, share > 0.0 ? clamp(share, 0.1, scattered > 0.0 ? 0.9 : 1.0) : 0.0);
 }
+
+// What does not pass through the surface.
+float opaqueShare(Surface s) { return needs(kNeedTransmission) ? 1.0 - s.transmission * (1.0 - s.metallic) : 1.0; }
 
 // Whether the rough lobes alone matter here: a mirror direction can't be connected to a light.
 bool isSmooth(Surface s) { return s.alpha < kSmallestAlpha; }
@@ -43,7 +54,7 @@ vec3 evalBsdf(Surface s, vec3 wo, vec3 wi, out float pdf) {
     pdf = 0.0;
     float cosO = dot(wo, s.normal), cosI = dot(wi, s.normal);
     if (cosI <= 0.0 || cosO <= 0.0 || dot(wi, s.geometricNormal) <= 0.0) return vec3(0.0);
-    float opaque = needs(kNeedTransmission) ? 1.0 - s.transmission * (1.0 - s.metallic) : 1.0;
+    float opaque = opaqueShare(s);
     if (opaque <= 0.0) return vec3(0.0);
     Lobes lobes = lobesOf(s, cosO);
     if (!needs(kNeedSpecular)) {

@@ -15,6 +15,52 @@ RAYLAB_CONST uint kIntegratorUv = 4;
 RAYLAB_CONST uint kIntegratorPrimitive = 5;
 RAYLAB_CONST uint kIntegratorInstance = 6;
 RAYLAB_CONST uint kIntegratorBarycentrics = 7;
+RAYLAB_CONST uint kIntegratorDirect = 8;
+RAYLAB_CONST uint kIntegratorAo = 9;
+RAYLAB_CONST uint kIntegratorWhitted = 10;
+
+// What a kernel of `direct` is specialised to, in the order of the settings' choices.
+RAYLAB_CONST uint kFresnelSchlick = 0;
+RAYLAB_CONST uint kFresnelExact = 1;
+RAYLAB_CONST uint kGeometrySchlickDirect = 0;
+RAYLAB_CONST uint kGeometrySchlickIbl = 1;
+RAYLAB_CONST uint kGeometrySmithCorrelated = 2;
+RAYLAB_CONST uint kGeometrySmithSeparable = 3;
+RAYLAB_CONST uint kAlphaSquared = 0;
+RAYLAB_CONST uint kAlphaLinear = 1;
+RAYLAB_CONST uint kShadowsNone = 0;
+RAYLAB_CONST uint kShadowsHard = 1;
+RAYLAB_CONST uint kShadowsGlass = 2;  // hard, dimmed and tinted by what light passes through
+
+// What a kernel of `whitted` is specialised to, in the order of the settings' choices.
+RAYLAB_CONST uint kAttenuationNone = 0;
+RAYLAB_CONST uint kAttenuationLinear = 1;
+RAYLAB_CONST uint kAttenuationQuadratic = 2;
+RAYLAB_CONST uint kHighlightPhong = 0;
+RAYLAB_CONST uint kHighlightBlinnPhong = 1;
+RAYLAB_CONST uint kReflectionFresnel = 0;
+RAYLAB_CONST uint kReflectionFixed = 1;
+RAYLAB_CONST uint kBeyondBlack = 0;
+RAYLAB_CONST uint kBeyondAverage = 1;
+
+// Where in its pixel a sample lies.
+RAYLAB_CONST uint kAntialiasFilter = 0;  // by the filter
+RAYLAB_CONST uint kAntialiasCentre = 1;
+RAYLAB_CONST uint kAntialiasGrid = 2;  // four places in turn
+
+// Samplers and filters, in the order of the settings' choices.
+RAYLAB_CONST uint kSamplerSobol = 0;
+RAYLAB_CONST uint kSamplerIndependent = 1;
+RAYLAB_CONST uint kSamplerStratified = 2;
+RAYLAB_CONST uint kSamplerBlueNoise = 3;
+RAYLAB_CONST uint kFilterBox = 0;
+RAYLAB_CONST uint kFilterTent = 1;
+RAYLAB_CONST uint kFilterBlackmanHarris = 2;
+RAYLAB_CONST uint kFilterGaussian = 3;
+
+// The mask of blue noise: a square of ranks 0 .. 2^bits - 1.
+RAYLAB_CONST uint kBlueNoiseSize = 64;
+RAYLAB_CONST uint kBlueNoiseRankBits = 12;
 
 struct FrameParams {
     vec3 cameraPosition;
@@ -43,8 +89,20 @@ struct FrameParams {
     uint root;        // child reference
     vec3 gridStep;
     uint hasUpperTree;  // 1: the root tree is over instances
+    uint sampleCount;    // of a pixel in all, and columns of its grid: the stratified sampler
+    uint strataWidth;
+    float filterRadius;  // pixels
+    float lensRadius;    // scene units
+    float focusDistance;  // along the axis
+    float clampRadiance;  // largest component of a sample
+    float mirrorAlpha;  // direct: surfaces of a smaller GGX alpha are mirrors
+    float aoDistance;   // length of the rays of ambient occlusion
+    uint aoRays;        // of a sample
+    float aoShare;      // 1 / aoRays
+    float ambient;      // direct, whitted: radiance from everywhere that diffuse surfaces scatter
+    float threshold;    // direct, whitted: mean weight under which a branch ends
 };
-RAYLAB_CHECK(FrameParams, 160);
+RAYLAB_CHECK(FrameParams, 208);
 
 // A film pixel in two-float sums: sum and sum of squares as unevaluated hi + lo, so that a million samples lose nothing.
 struct FilmPixel {
@@ -55,7 +113,7 @@ struct FilmPixel {
     vec3 squareHi;
     uint rays;  // traced for this pixel
     vec3 squareLo;
-    uint padding;
+    float clamped;  // sum of the luminance that clamping took from its samples
 };
 RAYLAB_CHECK(FilmPixel, 64);
 

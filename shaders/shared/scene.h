@@ -149,6 +149,22 @@ RAYLAB_CONST float kAlphaBlend = -1.0f;
 RAYLAB_CONST uint kMaterialDoubleSided = 1u;
 RAYLAB_CONST uint kMaterialThin = 2u;
 
+// What the Phong model knows of a material beside MaterialData (engine/scene/scene.h, PhongMaterial).
+struct PhongData {
+    vec3 diffuse;
+    float exponent;
+    vec3 specular;
+    float reflection;
+    vec3 mirror;
+    float ior;  // kOpaqueIor and above: a metal
+    vec3 tint;
+    uint isGiven;  // 0: to be derived from the surface
+};
+RAYLAB_CHECK(PhongData, 64);
+RAYLAB_CONST uint kWordsPhong = 4;
+RAYLAB_CONST float kOpaqueIor = 10000.0f;
+RAYLAB_CONST float kLargestExponent = 10000.0f;
+
 struct TextureData {
     uint firstTexel;  // level 0; the others follow it
     uint width;

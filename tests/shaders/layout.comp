@@ -63,6 +63,18 @@ void emitFrame() {
     emit(frame.root);
     emit(frame.gridStep);
     emit(frame.hasUpperTree);
+    emit(frame.sampleCount);
+    emit(frame.strataWidth);
+    emit(frame.filterRadius);
+    emit(frame.lensRadius);
+    emit(frame.focusDistance);
+    emit(frame.clampRadiance);
+    emit(frame.mirrorAlpha);
+    emit(frame.aoDistance);
+    emit(frame.aoRays);
+    emit(frame.aoShare);
+    emit(frame.ambient);
+    emit(frame.threshold);
 }
 
 void emitBuffers() {
@@ -73,7 +85,7 @@ void emitBuffers() {
     emit(film.squareHi);
     emit(film.rays);
     emit(film.squareLo);
-    emit(film.padding);
+    emit(film.clamped);
     emit(push.firstTile);
     emit(push.firstRow);
     emit(push.firstSample);
@@ -177,6 +189,15 @@ void emitMaterials() {
     emit(material.metallicRoughnessTexture);
     emit(material.normalTexture);
     emit(material.emissionTexture);
+    PhongData phong = loadPhong(1u);
+    emit(phong.diffuse);
+    emit(phong.exponent);
+    emit(phong.specular);
+    emit(phong.reflection);
+    emit(phong.mirror);
+    emit(phong.ior);
+    emit(phong.tint);
+    emit(phong.isGiven);
     emit(textureData.firstTexel);
     emit(textureData.width);
     emit(textureData.height);

@@ -51,6 +51,7 @@ struct Structs {
     shared::VertexData vertex;
     shared::QuadricData quadric;
     std::array<shared::MaterialData, 2> materials{};
+    std::array<shared::PhongData, 2> phong{};
     shared::TextureData texture;
     shared::EmissiveData emissive;
     shared::PunctualData punctual;
@@ -61,11 +62,13 @@ void numberFrame(Numbering& n, shared::FrameParams& f) {
     n.assign(f.tilesPerRow, f.maxDepth, f.rouletteDepth, f.traceInstanceCount, f.emissiveCount, f.punctualCount);
     n.assign(f.environmentWidth, f.environmentHeight, f.shareEmissive, f.sharePunctual, f.shareEnvironment);
     n.assign(f.emissiveTotal, f.environmentConstant, f.sceneDiagonal, f.gridOrigin, f.root, f.gridStep, f.hasUpperTree);
+    n.assign(f.sampleCount, f.strataWidth, f.filterRadius, f.lensRadius, f.focusDistance, f.clampRadiance);
+    n.assign(f.mirrorAlpha, f.aoDistance, f.aoRays, f.aoShare, f.ambient, f.threshold);
 }
 
 void numberBuffers(Numbering& n, Structs& s) {
     n.assign(s.film.sumHi, s.film.count, s.film.sumLo, s.film.nonFinite, s.film.squareHi, s.film.rays);
-    n.assign(s.film.squareLo, s.film.padding);
+    n.assign(s.film.squareLo, s.film.clamped);
     n.assign(s.push.firstTile, s.push.firstRow, s.push.firstSample, s.push.sampleCount, s.push.firstLane, s.push.laneCount);
     n.assign(s.ray.origin, s.ray.tMin, s.ray.direction, s.ray.tMax);
     n.assign(s.hit.t, s.hit.u, s.hit.v, s.hit.instance, s.hit.primitive);
@@ -90,10 +93,11 @@ void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData&
     n.assign(q.radii, q.zz, q.z, q.constant, q.height, q.isEllipsoid);
 }
 
-void numberMaterials(Numbering& n, shared::MaterialData& m, shared::TextureData& t) {
+void numberMaterials(Numbering& n, shared::MaterialData& m, shared::PhongData& p, shared::TextureData& t) {
     n.assign(m.baseColor, m.alpha, m.emission, m.alphaCutoff, m.metallic, m.roughness, m.transmission, m.ior);
     n.assign(m.specular, m.normalScale, m.emissionWeight, m.flags, m.baseColorTexture, m.metallicRoughnessTexture);
     n.assign(m.normalTexture, m.emissionTexture);
+    n.assign(p.diffuse, p.exponent, p.specular, p.reflection, p.mirror, p.ior, p.tint, p.isGiven);
     n.assign(t.firstTexel, t.width, t.height, t.flags);
 }
 
@@ -109,7 +113,7 @@ std::vector<uint32_t> numberAll(Structs& s) {
     numberBuffers(numbering, s);
     numberTraversal(numbering, s.traceTriangle, s.traceInstance, s.traceQuadric);
     numberGeometry(numbering, s.instances[1], s.triangle, s.vertex, s.quadric);
-    numberMaterials(numbering, s.materials[1], s.texture);
+    numberMaterials(numbering, s.materials[1], s.phong[1], s.texture);
     numberLights(numbering, s.emissive, s.punctual);
     return numbering.bits();
 }
@@ -179,6 +183,7 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.buffer(48, result);
     inputs.texels(shared::kBindInstances, s.instances);
     inputs.texels(shared::kBindMaterials, s.materials);
+    inputs.texels(shared::kBindPhong, s.phong);
     const KernelLayout layout = inputs.bind(sizeof(shared::RenderPush));
     const Kernel kernel = makeComputeKernel(device_, layout, RAYLAB_BINARY_DIR "/tests/layout.comp.spv", {});
     device_.run("layout", [&](VkCommandBuffer commands) {

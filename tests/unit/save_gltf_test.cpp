@@ -108,6 +108,8 @@ Scene everything() {
                       makeTexture(dice, "colour", false, false, Wrap::clamp, Wrap::mirror),
                       makeTexture(dice, "glow", true, true, Wrap::mirror, Wrap::clamp)};
     for (const char* name : {"textured", "plain", "", "plain"}) scene.materials.push_back(makeMaterial(dice, name));
+    scene.materials[3].phong = PhongMaterial{dice.vec(0, 1), dice.vec(0, 1), dice(1, 200), dice.vec(0, 1),
+                                             dice.vec(0, 1), dice(0, 1),     dice(1, 10000)};
     Material& textured = scene.materials[0];
     textured.baseColorTexture = 0;
     textured.metallicRoughnessTexture = 1;

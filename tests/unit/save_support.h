@@ -46,6 +46,8 @@ inline void expectSame(const Material& a, const Material& b) {
     EXPECT_EQ(a.alphaMode, b.alphaMode) << a.name;
     EXPECT_EQ(a.thin, b.thin) << a.name;
     EXPECT_EQ(a.doubleSided, b.doubleSided) << a.name;
+    ASSERT_EQ(a.phong.has_value(), b.phong.has_value()) << a.name;
+    if (a.phong) expectSameBits(*a.phong, *b.phong, a.name + " phong");
 }
 
 inline void expectSame(const Mesh& a, const Mesh& b) {

@@ -45,6 +45,7 @@ nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSett
             {"samplesPerSecond", r.times.render > 0.0 ? static_cast<double>(r.pixelSamples) / r.times.render : 0.0},
             {"estimatedRelativeError", r.image.estimatedRelativeError},
             {"nonFinitePixels", r.image.nonFinitePixels},
+            {"clampedEnergy", r.image.clampedEnergy},
             {"memoryBytes", {{"scene", r.sceneBytes}, {"traversal", r.traceBytes}, {"film", r.filmBytes}}},
             {"stoppedBy", r.stoppedBy},
             {"validationMessages", device.validationMessageCount()},
@@ -57,19 +58,27 @@ Metadata resultMetadata(const RenderOptions& options, const RenderSettings& sett
     metadata.emplace_back("version", RAYLAB_VERSION);
     metadata.emplace_back("device-name", device.description().name);
     metadata.emplace_back("samples", std::to_string(r.samples));
+    if (settings.clamp > 0.0) metadata.emplace_back("clamped-energy", std::to_string(r.image.clampedEnergy));
     return metadata;
 }
 
-std::string summary(const RenderOptions& options, const RenderResult& r) {
+std::string summary(const RenderOptions& options, const RenderSettings& settings, const RenderResult& r) {
     char text[256];
     std::snprintf(text, sizeof(text),
                   "%s  %u samples  %.2f s in all (import %.2f, build %.2f, upload %.2f, compile %.2f, render %.2f)  %.2f Mrays/s",
                   options.output.c_str(), r.samples, r.totalSeconds, r.importSeconds, r.times.build, r.times.upload,
                   r.times.compile, r.times.render, raysPerSecond(r) * 1e-6);
-    if (r.samples < 2) return text;
-    char noise[64];
-    std::snprintf(noise, sizeof(noise), "  noise %.2f%%", 100.0 * r.image.estimatedRelativeError);
-    return std::string(text) + noise;
+    std::string line = text;
+    if (r.samples >= 2) {
+        std::snprintf(text, sizeof(text), "  noise %.2f%%", 100.0 * r.image.estimatedRelativeError);
+        line += text;
+    }
+    if (settings.clamp > 0.0) {
+        std::snprintf(text, sizeof(text), "\nclamping at %g took %.3g%% of the light", settings.clamp,
+                      100.0 * r.image.clampedEnergy);
+        line += text;
+    }
+    return line;
 }
 
 ExitCode render(RenderOptions options) {
@@ -94,7 +103,7 @@ ExitCode render(RenderOptions options) {
     writeRender(options.output, result, settings, resultMetadata(options, settings, device, result));
     result.totalSeconds = total.seconds();
     if (!options.json.empty()) writeJson(options.json, resultJson(options, settings, device, result));
-    if (options.json != "-") std::cout << summary(options, result) << "\n";
+    if (options.json != "-") std::cout << summary(options, settings, result) << "\n";
     if (result.image.nonFinitePixels > 0)
         logWarning(std::to_string(result.image.nonFinitePixels) + " pixels had samples that are not finite; these are left out");
     return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;

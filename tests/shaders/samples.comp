@@ -1,0 +1,41 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Draws samples by one routine of lib/ or materials/, the sampler's numbers going in. tests/statistical/chi_squared_test.cpp
+// counts where they fall.
+#include "lib/environment.glsl"
+#include "lib/filter.glsl"
+#include "lib/sampler.glsl"
+#include "materials/ggx.glsl"
+#include "routines.h"
+
+layout(local_size_x = kWorkgroupSize) in;
+layout(constant_id = kSpecRoutine) const uint kRoutine = kRoutinePair;
+layout(push_constant) uniform PushBlock { SamplesPush push; };
+layout(set = 0, binding = kBindHits, std430) writeonly buffer ResultBlock { vec4 result[]; };
+
+vec4 draw(vec2 u, vec2 v) {
+    float pdf = 0.0;
+    if (kRoutine == kRoutineCosine) {
+        vec3 direction = sampleCosineHemisphere(u, pdf);
+        return vec4(direction, pdf);
+    }
+    if (kRoutine == kRoutineGgxNormal) return vec4(sampleGgxNormal(push.wo, push.alpha, u), 0.0);
+    if (kRoutine == kRoutineTriangle) return vec4(sampleTriangle(u), 0.0, 0.0);
+    if (kRoutine == kRoutineDisc) return vec4(sampleDisc(u), 0.0, 0.0);
+    if (kRoutine == kRoutineFilter) return vec4(sampleFilter(u), 0.0, 0.0);
+    if (kRoutine == kRoutineEnvironment) {
+        vec3 direction = sampleEnvironment(u, v);
+        environmentRadiance(direction, pdf);
+        return vec4(direction, pdf);
+    }
+    return vec4(u, v);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    uint pixel = i / push.samplesPerPixel;
+    Sampler random = makeSampler(frame.seed, uvec2(pixel % push.pixelsPerRow, pixel / push.pixelsPerRow), push.pixelsPerRow,
+                                 push.firstSample + i % push.samplesPerPixel);
+    result[i] = draw(sample2D(random, 3u), sample2D(random, 4u));
+}
