@@ -84,10 +84,9 @@ void bindStructure(const Device& device, const KernelLayout& layout, uint32_t bi
 
 Kernel makeComputeKernel(const Device& device, const KernelLayout& layout, const std::filesystem::path& spirv,
                          std::span<const SpecConstant> constants) {
-    const ShaderModuleHandle module = loadModule(device, spirv);
-    const Specialisation specialisation(constants);
+    const ShaderModuleHandle module = loadModule(device, spirv, constants);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), specialisation);
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get());
     info.layout = layout.pipelineLayout.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device.get(), device.pipelineCache(), 1, &info, nullptr, &pipeline),

@@ -14,6 +14,8 @@ namespace raylab {
 struct SpecConstant {
     uint32_t id = 0;
     uint32_t value = 0;
+
+    bool operator==(const SpecConstant&) const = default;
 };
 
 /// A descriptor binding of a kernel.

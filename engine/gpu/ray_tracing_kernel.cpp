@@ -10,8 +10,7 @@ namespace {
 /// The stages and groups of a pipeline while it is put together. A file that several groups name is loaded once.
 class Assembly {
 public:
-    Assembly(const Device& device, const Specialisation& specialisation)
-        : device_(device), specialisation_(specialisation) {}
+    Assembly(const Device& device, std::span<const SpecConstant> constants) : device_(device), constants_(constants) {}
 
     void addGeneral(VkShaderStageFlagBits stage, const std::filesystem::path& spirv) {
         VkRayTracingShaderGroupCreateInfoKHR group = emptyGroup(VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR);
@@ -63,13 +62,13 @@ private:
         const auto known = std::ranges::find(files_, spirv);
         if (known != files_.end()) return static_cast<uint32_t>(known - files_.begin());
         files_.push_back(spirv);
-        modules_.push_back(loadModule(device_, spirv));
-        stages_.push_back(stageInfo(stage, modules_.back().get(), specialisation_));
+        modules_.push_back(loadModule(device_, spirv, constants_));
+        stages_.push_back(stageInfo(stage, modules_.back().get()));
         return static_cast<uint32_t>(stages_.size()) - 1;
     }
 
     const Device& device_;
-    const Specialisation& specialisation_;
+    std::span<const SpecConstant> constants_;
     std::vector<std::filesystem::path> files_;
     std::vector<ShaderModuleHandle> modules_;
     std::vector<VkPipelineShaderStageCreateInfo> stages_;
@@ -114,8 +113,7 @@ void makeTable(Device& device, uint32_t groupCount, uint32_t missCount, Kernel& 
 
 Kernel makeRayTracingKernel(Device& device, const KernelLayout& layout, const RayTracingStages& stages,
                             uint32_t lanesPerGroup, std::span<const SpecConstant> constants) {
-    const Specialisation specialisation(constants);
-    Assembly assembly(device, specialisation);
+    Assembly assembly(device, constants);
     assembly.addGeneral(VK_SHADER_STAGE_RAYGEN_BIT_KHR, stages.raygen);
     for (const std::filesystem::path& miss : stages.miss) assembly.addGeneral(VK_SHADER_STAGE_MISS_BIT_KHR, miss);
     for (const RayTracingStages::HitGroup& hit : stages.hit) assembly.addHit(hit);

@@ -1,31 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <span>
 
 #include "engine/gpu/pipeline.h"
 
 namespace raylab {
 
-/// Throws Error where the file is missing or is not SPIR-V.
-ShaderModuleHandle loadModule(const Device& device, const std::filesystem::path& spirv);
+/// Of the file's code, specialised (engine/gpu/specialise.h). Throws Error where the file is missing or is not SPIR-V.
+ShaderModuleHandle loadModule(const Device& device, const std::filesystem::path& spirv,
+                              std::span<const SpecConstant> constants);
 
-/// Constants as a pipeline's stage wants them; info() points into this object.
-class Specialisation {
-public:
-    explicit Specialisation(std::span<const SpecConstant> constants);
-    Specialisation(const Specialisation&) = delete;
-    Specialisation& operator=(const Specialisation&) = delete;
-    const VkSpecializationInfo* info() const { return &info_; }
-
-private:
-    std::vector<VkSpecializationMapEntry> entries_;
-    std::vector<uint32_t> values_;
-    VkSpecializationInfo info_{};
-};
-
-/// Both must outlive the creation of the pipeline.
-VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
-                                          const Specialisation& specialisation);
+/// The module must outlive the creation of the pipeline.
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module);
 
 }  // namespace raylab

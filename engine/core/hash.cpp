@@ -1,17 +1,13 @@
+#include "engine/core/hash.h"
+
 #include <bit>
 #include <cstring>
-#include <type_traits>
-
-#include "engine/accel/bvh_cache.h"
 
 namespace raylab {
 namespace {
 
 constexpr uint64_t kFactor1 = 0x87c37b91114253d5u;
 constexpr uint64_t kFactor2 = 0x4cf5ad432745937fu;
-
-/// Part of every key: a change of BvhNode, of the file or of what a builder makes of the same input takes a new one.
-constexpr uint32_t kKeyVersion = 1;
 
 uint64_t scramble1(uint64_t word) { return std::rotl(word * kFactor1, 31) * kFactor2; }
 uint64_t scramble2(uint64_t word) { return std::rotl(word * kFactor2, 33) * kFactor1; }
@@ -22,10 +18,10 @@ uint64_t finalMix(uint64_t word) {
     return word ^ (word >> 33);
 }
 
-template <class Item>
-Hash128 hashItems(std::span<const Item> items, Hash128 seed) {
-    static_assert(std::is_trivially_copyable_v<Item>);
-    return hashBytes(std::as_bytes(items), seed);
+std::string hexadecimal(uint64_t value) {
+    std::string text(16, '0');
+    for (size_t i = text.size(); i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15u];
+    return text;
 }
 
 }  // namespace
@@ -56,18 +52,6 @@ Hash128 hashBytes(std::span<const std::byte> bytes, Hash128 seed) {
     return hash;
 }
 
-BvhCacheKey bvhCacheKey(std::string_view builder, const BvhConfig& config, std::span<const Aabb> bounds,
-                        std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
-    BvhCacheKey key;
-    key.primitiveCount = static_cast<uint32_t>(bounds.size());
-    key.content = hashItems(std::span<const uint32_t>(&kKeyVersion, 1), {});
-    key.content = hashItems(std::span<const char>(builder), key.content);
-    // As bytes, so that a field that is added counts without a change here; padding could only cause a miss.
-    key.content = hashItems(std::span<const BvhConfig>(&config, 1), key.content);
-    key.content = hashItems(bounds, key.content);
-    key.content = hashItems(positions, key.content);
-    key.content = hashItems(triangles, key.content);
-    return key;
-}
+std::string hashText(const Hash128& hash) { return hexadecimal(hash.high) + hexadecimal(hash.low); }
 
 }  // namespace raylab
