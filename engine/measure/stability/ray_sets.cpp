@@ -1,4 +1,4 @@
-#include "tests/support/trace_rays.h"
+#include "engine/measure/stability/ray_sets.h"
 
 #include <array>
 #include <cmath>
@@ -6,14 +6,7 @@
 
 #include "engine/scene/bounds.h"
 
-namespace raylab::support {
-namespace {
-
-using accel_test::Random;
-using accel_test::TestMesh;
-
-}  // namespace
-
+namespace raylab::stability {
 std::vector<shared::RayData> randomRays(const Scene& scene, size_t count, uint32_t seed) {
     Random random(seed);
     const Bounds bounds = sceneBounds(scene);
@@ -27,7 +20,7 @@ std::vector<shared::RayData> randomRays(const Scene& scene, size_t count, uint32
     return rays;
 }
 
-Scene soupScene(size_t count, float size) { return sceneOf(accel_test::randomSoup(count, size, 81)); }
+Scene soupScene(size_t count, float size) { return sceneOf(randomSoup(count, size, 81)); }
 
 Scene instancedSoup() {
     Scene scene = soupScene(300, 0.3f);
@@ -70,7 +63,7 @@ std::vector<shared::RayData> raysAlongAxes(size_t count, uint32_t seed) {
     return rays;
 }
 
-TestMesh ball(uint32_t rings, const glm::vec3& centre) { return accel_test::sphere(2.0f, rings, 2 * rings, centre); }
+TestMesh ball(uint32_t rings, const glm::vec3& centre) { return sphere(2.0f, rings, 2 * rings, centre); }
 
 TestMesh bumpyBall(uint32_t rings) {
     TestMesh mesh = ball(rings, glm::vec3(0.0f));
@@ -115,4 +108,4 @@ void makeSolid(Scene& scene) {
     for (Material& material : scene.materials) material = lambert(0.5f);
 }
 
-}  // namespace raylab::support
+}  // namespace raylab::stability

@@ -1,0 +1,96 @@
+#include "engine/measure/stability/battery.h"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/core/stopwatch.h"
+
+namespace raylab::stability {
+namespace {
+
+Row emptyRow(const Case& which, const Config& config) {
+    Row row;
+    row.id = which.id;
+    row.provokes = which.provokes;
+    row.config = config.name;
+    row.isDefault = config.isDefault();
+    return row;
+}
+
+Row skippedRow(const Case& which, const Config& config, const std::string& why) {
+    Row row = emptyRow(which, config);
+    row.skipped = why;
+    return row;
+}
+
+Row failedRow(const Case& which, const Config& config, const std::string& why) {
+    Row row = emptyRow(which, config);
+    row.number = {"the case ran to its end", std::nan(""), 0.0, "", why, std::nullopt};
+    return row;
+}
+
+std::vector<Row> runCase(const Case& which, const Config& config, const Context& context) {
+    std::vector<Row> rows;
+    if (!config.missing.empty()) return {skippedRow(which, config, "the device lacks " + config.missing)};
+    try {
+        for (Number& number : which.measure(context)) {
+            rows.push_back(emptyRow(which, config));
+            rows.back().number = std::move(number);
+        }
+    } catch (const Skipped& skipped) {
+        rows = {skippedRow(which, config, skipped.what())};
+    } catch (const Error& error) {
+        rows = {failedRow(which, config, error.what())};
+    }
+    return rows;
+}
+
+}  // namespace
+
+void Context::check() const {
+    if (goesOn && !goesOn()) throw Stopped("stopped");
+}
+
+std::filesystem::path Context::sceneFile(const std::string& relativePath) const {
+    const std::filesystem::path path = scenes / relativePath;
+    if (scenes.empty() || !std::filesystem::exists(path))
+        throw Skipped("needs " + relativePath + " of the shared scenes (--scenes DIR)");
+    return path;
+}
+
+std::vector<const Case*> casesOf(std::string_view id) {
+    std::vector<const Case*> found;
+    std::string known;
+    for (const Case& each : cases()) {
+        if (each.id == id) found.push_back(&each);
+        if (known.find(std::string(each.id) + ",") == std::string::npos) known += std::string(each.id) + ", ";
+    }
+    if (found.empty())
+        throw Error("there is no case '" + std::string(id) + "'; there are " + known.substr(0, known.size() - 2));
+    return found;
+}
+
+BatteryResult runBattery(const Plan& plan, const Context& context, const BatteryProgress& progress) {
+    BatteryResult result;
+    try {
+        for (const Case* each : plan.cases)
+            for (const Config& config : plan.configs) {
+                if (!config.isDefault() && (config.axes & each->axes) != config.axes) continue;
+                context.check();
+                progress(*each, config, {});
+                Context here = context;
+                here.settings = config.settings;
+                const Stopwatch watch;
+                std::vector<Row> rows = runCase(*each, config, here);
+                for (Row& row : rows) row.seconds = watch.seconds();
+                progress(*each, config, rows);
+                for (Row& row : rows) result.rows.push_back(std::move(row));
+            }
+    } catch (const Stopped&) {
+        result.complete = false;
+    }
+    return result;
+}
+
+}  // namespace raylab::stability

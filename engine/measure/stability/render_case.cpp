@@ -1,0 +1,89 @@
+#include "engine/measure/stability/render_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/render/lighting.h"
+#include "engine/render/renderer.h"
+#include "engine/render/tonemap.h"
+
+namespace raylab::stability {
+
+RenderSettings smallImage(RenderSettings settings, int64_t size, int64_t spp, int64_t depth) {
+    settings.width = size;
+    settings.height = size;
+    settings.spp = spp;
+    settings.depth = depth;
+    settings.seed = 20240607;
+    return settings;
+}
+
+FilmImage renderFilm(Device& device, Scene scene, const RenderSettings& settings,
+                     const std::function<void()>& betweenSteps) {
+    settleEnvironment(scene, settings);
+    Renderer renderer(device, scene, settings);
+    while (renderer.step())
+        if (betweenSteps) betweenSteps();
+    return renderer.snapshot();
+}
+
+FilmImage renderFilm(const Context& context, const Scene& scene, const RenderSettings& settings) {
+    return renderFilm(context.device, scene, settings, [&context] { context.check(); });
+}
+
+Estimate estimateOf(const FilmImage& film, int channel) {
+    Estimate estimate;
+    double variance = 0.0;
+    const size_t count = film.mean.pixelCount();
+    for (size_t i = 0; i < count; ++i) {
+        const size_t at = 3 * i + static_cast<size_t>(channel);
+        estimate.mean += static_cast<double>(film.mean.pixels[at]);
+        variance += static_cast<double>(film.variance.pixels[at]) / static_cast<double>(film.samples.pixels[i]);
+    }
+    estimate.mean /= static_cast<double>(count);
+    estimate.standardError = std::sqrt(variance) / static_cast<double>(count);
+    return estimate;
+}
+
+size_t countWrongPixels(const FilmImage& film, double exact, double relativeTolerance, std::optional<Bitmap>& picture) {
+    Bitmap marked = displayed(film.mean);
+    size_t wrong = 0;
+    for (size_t i = 0; i < film.mean.pixelCount(); ++i) {
+        bool isWrong = false;
+        for (size_t c = 0; c < 3; ++c) {
+            const double error = std::abs(static_cast<double>(film.mean.pixels[3 * i + c]) - exact);
+            isWrong = isWrong || !(error <= relativeTolerance * std::abs(exact));
+        }
+        wrong += isWrong ? 1u : 0u;
+        for (size_t c = 0; c < 3; ++c)
+            marked.pixels[3 * i + c] = isWrong ? (c == 0 ? 1.0f : 0.0f) : 0.3f * marked.pixels[3 * i + c];
+    }
+    if (wrong > 0) picture = std::move(marked);
+    return wrong;
+}
+
+Bitmap scatterPicture(std::span<const glm::dvec2> points, int size) {
+    Bitmap picture(size, size, 3);
+    std::ranges::fill(picture.pixels, 0.03f);
+    for (const glm::dvec2& point : points) {
+        const glm::ivec2 centre(point * static_cast<double>(size));
+        for (int y = centre.y - 1; y <= centre.y + 1; ++y)
+            for (int x = centre.x - 1; x <= centre.x + 1; ++x) {
+                float* const rgb = picture.at(std::clamp(x, 0, size - 1), std::clamp(y, 0, size - 1));
+                rgb[0] = 1.0f;
+                rgb[1] = std::min(rgb[1] + 0.05f, 1.0f);
+            }
+    }
+    return picture;
+}
+
+glm::dvec2 onMap(const glm::dvec3& direction) {
+    const glm::dvec3 d = glm::normalize(direction);
+    return {0.5 + std::atan2(d.x, -d.z) / (2.0 * std::numbers::pi),
+            std::acos(std::clamp(d.y, -1.0, 1.0)) / std::numbers::pi};
+}
+
+Bitmap displayed(const Bitmap& radiance) { return tonemapImage(radiance, 0.0, "filmic"); }
+
+}  // namespace raylab::stability
