@@ -1,0 +1,230 @@
+#include "engine/measure/advise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/measure/image_error.h"
+#include "engine/render/integrators.h"
+#include "engine/render/tracer.h"
+
+namespace raylab {
+namespace {
+
+/// One rendering of a probe takes about so long, and has so many samples at most.
+constexpr double kProbeSeconds = 0.25;
+constexpr uint32_t kMostProbeSamples = 256;
+constexpr int kProbeSeeds = 4;
+/// A gain that is less is not worth an unusual setting.
+constexpr double kWorthwhile = 1.03;
+/// Samples of the second measurement of a forecast, over those it forecasts.
+constexpr double kCalibrationShare = 0.25;
+/// Noise falls with a power of the samples: independent ones have 1, well-distributed ones more on smooth pixels.
+constexpr double kLeastPower = 0.9, kMostPower = 1.5;
+
+struct Coordinate {
+    const char* setting;
+    std::vector<std::string> values;  ///< empty: all choices
+};
+
+const std::vector<Coordinate>& coordinates() {
+    static const std::vector<Coordinate> list = {
+        {"depth", {"2", "4", "8", "16", "32"}}, {"integrator", {}}, {"light-choice", {}}, {"sampler", {}},
+        {"roulette-depth", {"1", "3", "8"}},    {"tracer", {}},     {"layout", {}},       {"builder", {}}};
+    return list;
+}
+
+bool isOffered(const std::string& setting, const std::string& value, const RenderSettings& held, const Device& device) {
+    if (setting == "integrator") return !findIntegrator(value).isView;
+    if (setting == "tracer") return value != "brute" && missingForTracer(value, device.description()).empty();
+    if (setting == "layout" || setting == "builder") return held.tracer == "software" && value != kAutoLayout;
+    return true;
+}
+
+/// The held value, then the others.
+std::vector<std::string> valuesOf(const Coordinate& coordinate, const RenderSettings& held, const Device& device) {
+    const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), coordinate.setting);
+    const std::string now = settingText(getSetting(setting, held));
+    std::vector<std::string> values{now};
+    for (const std::string& value : coordinate.values.empty() ? setting.choices : coordinate.values)
+        if (value != now && isOffered(coordinate.setting, value, held, device)) values.push_back(value);
+    return values;
+}
+
+/// The state of a search.
+class Search {
+public:
+    Search(Device& device, const Scene& scene, const Reference& reference, const AdviceGoal& goal,
+           const std::function<bool()>& stop)
+        : device_(device), scene_(scene), reference_(reference), goal_(goal), stop_(stop) {}
+
+    /// Of the values of a coordinate; false where it was stopped. `held` gets the chosen value.
+    bool tryCoordinate(const Coordinate& coordinate, RenderSettings& held, Advice& advice);
+    std::optional<Forecast> forecast(const RenderSettings& settings);
+    std::optional<Achieved> run(const RenderSettings& settings);
+
+private:
+    std::optional<std::vector<Probe>> measure(std::span<const RenderSettings> candidates, uint32_t samples, int seeds) {
+        const uint32_t seed = nextSeed_;
+        nextSeed_ += static_cast<uint32_t>(seeds);
+        return probe(device_, scene_, candidates, reference_, {samples, seeds, seed}, stop_);
+    }
+    uint32_t samplesFor(double sampleSeconds) const {
+        return static_cast<uint32_t>(std::clamp(kProbeSeconds / sampleSeconds, 1.0, double{kMostProbeSamples}));
+    }
+    /// The error that candidates are compared at.
+    double errorFor(const Probe& held) const {
+        return goal_.relativeError > 0.0 ? goal_.relativeError : held.errorAfter(goal_.seconds);
+    }
+
+    Device& device_;
+    const Scene& scene_;
+    const Reference& reference_;
+    AdviceGoal goal_;
+    const std::function<bool()>& stop_;
+    uint32_t nextSeed_ = 1;
+    double sampleSeconds_ = 0.0;  ///< of the held settings
+};
+
+/// Paired by seed: both saw the same random numbers on a machine of the same mood.
+Interval gainOf(const Probe& held, const Probe& other, double error) {
+    std::vector<double> ratios;
+    for (size_t seed = 0; seed < held.sampleSeconds.size(); ++seed) {
+        const double before = held.secondsToError(error, seed), after = other.secondsToError(error, seed);
+        if (std::isinf(after)) return {0.0, 0.0, 0.0};
+        ratios.push_back(std::isinf(before) ? std::numeric_limits<double>::infinity() : before / after);
+    }
+    if (std::isinf(ratios.front())) return {ratios.front(), ratios.front(), ratios.front()};
+    return geometricInterval(ratios);
+}
+
+AdviceOption optionOf(const std::string& value, const Probe& held, const Probe& other, double error) {
+    return {value, gainOf(held, other, error), std::sqrt(other.biasSquared()), other.energy, other.buildSeconds};
+}
+
+double medianSeconds(const Probe& probe, double error) {
+    std::vector<double> seconds;
+    for (size_t seed = 0; seed < probe.sampleSeconds.size(); ++seed)
+        seconds.push_back(probe.secondsToError(error, seed));
+    return medianOf(seconds);
+}
+
+/// The fastest of those whose gain is one with confidence.
+size_t choose(const std::vector<AdviceOption>& options, const std::vector<Probe>& probes, double error) {
+    size_t best = 0;
+    for (size_t i = 1; i < options.size(); ++i) {
+        const bool isGain = options[i].gain.low > 1.0 && options[i].gain.value > kWorthwhile;
+        if (isGain && medianSeconds(probes[i], error) < medianSeconds(probes[best], error)) best = i;
+    }
+    return best;
+}
+
+bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, Advice& advice) {
+    const std::vector<std::string> values = valuesOf(coordinate, held, device_);
+    if (values.size() < 2) return true;
+    const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), coordinate.setting);
+    std::vector<RenderSettings> candidates(values.size(), held);
+    for (size_t i = 0; i < values.size(); ++i) setSetting(setting, candidates[i], values[i]);
+    if (sampleSeconds_ == 0.0) {
+        const auto first = measure(std::span(candidates).first(1), 1, 1);
+        if (!first) return false;
+        sampleSeconds_ = first->front().medianSampleSeconds();
+    }
+    const auto probes = measure(candidates, samplesFor(sampleSeconds_), kProbeSeeds);
+    if (!probes) return false;
+    const double error = errorFor(probes->front());
+    AdviceStep step{coordinate.setting, values.front(), values.front(), {}};
+    for (size_t i = 0; i < values.size(); ++i)
+        step.options.push_back(optionOf(values[i], probes->front(), (*probes)[i], error));
+    const size_t best = choose(step.options, *probes, error);
+    step.chosen = values[best];
+    held = candidates[best];
+    sampleSeconds_ = (*probes)[best].medianSampleSeconds();
+    advice.steps.push_back(std::move(step));
+    return true;
+}
+
+/// From two numbers of samples: a short one, and one of some share of what is forecast.
+std::optional<Forecast> Search::forecast(const RenderSettings& settings) {
+    const std::vector<RenderSettings> one{settings};
+    const auto first = measure(one, 1, 1);
+    if (!first) return std::nullopt;
+    const uint32_t fewSamples = samplesFor(first->front().medianSampleSeconds());
+    const auto few = measure(one, fewSamples, kProbeSeeds);
+    if (!few) return std::nullopt;
+    const Probe& low = few->front();
+    const double aim = goal_.relativeError * goal_.relativeError;
+    double wanted = goal_.seconds / low.medianSampleSeconds();
+    if (goal_.relativeError > 0.0) {
+        const double room = aim - low.biasSquared();
+        if (room <= 0.0) return Forecast{0, 0.0, 0.0, std::sqrt(low.biasSquared())};
+        wanted = low.sampleVariance() / room;
+    }
+    const auto manySamples = std::max(2 * fewSamples, static_cast<uint32_t>(std::min(wanted * kCalibrationShare, 1e6)));
+    const auto many = measure(one, manySamples, kProbeSeeds);
+    if (!many) return std::nullopt;
+    const Probe& high = many->front();
+    const double bias = high.biasSquared(), variance = high.sampleVariance() / manySamples;
+    const double before = low.sampleVariance() / fewSamples;
+    double power = 1.0;
+    if (variance > 0.0 && before > 0.0)
+        power = std::clamp(std::log(before / variance) / std::log(double(manySamples) / fewSamples), kLeastPower,
+                           kMostPower);
+    double samples = std::floor(goal_.seconds / high.medianSampleSeconds());
+    if (goal_.relativeError > 0.0) {
+        if (aim <= bias) return Forecast{0, 0.0, 0.0, std::sqrt(bias)};
+        samples = std::ceil(manySamples * std::pow(variance / (aim - bias), 1.0 / power));
+    }
+    samples = std::clamp(samples, 1.0, 4e9);
+    const double error = std::sqrt(bias + variance * std::pow(manySamples / samples, power));
+    return Forecast{static_cast<uint32_t>(samples), samples * high.medianSampleSeconds(), error, std::sqrt(bias)};
+}
+
+std::optional<Achieved> Search::run(const RenderSettings& settings) {
+    const std::vector<RenderSettings> one{settings};
+    const auto probes = measure(one, static_cast<uint32_t>(settings.spp), 1);
+    if (!probes) return std::nullopt;
+    const Probe& only = probes->front();
+    return Achieved{only.sampleSeconds.front() * only.samples, std::sqrt(std::max(0.0, only.squaredErrors.front()))};
+}
+
+}  // namespace
+
+std::vector<std::string> adviceSettings() {
+    std::vector<std::string> names;
+    for (const Coordinate& coordinate : coordinates()) names.emplace_back(coordinate.setting);
+    return names;
+}
+
+std::optional<Advice> advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
+                             const AdviceGoal& goal, const std::function<bool()>& stop,
+                             const AdviceProgress& progress) {
+    Search search(device, scene, reference, goal, stop);
+    Advice advice;
+    RenderSettings held = base;
+    for (const Coordinate& coordinate : coordinates()) {
+        if (!goal.only.empty() && std::ranges::count(goal.only, coordinate.setting) == 0) continue;
+        progress(coordinate.setting);
+        if (!search.tryCoordinate(coordinate, held, advice)) return std::nullopt;
+    }
+    progress("forecast");
+    const std::optional<Forecast> forecast = search.forecast(held);
+    if (!forecast) return std::nullopt;
+    if (forecast->samples == 0)
+        throw Error("nothing that was tried reaches a relative error of " + std::to_string(goal.relativeError) +
+                    "; the least bias found is " + std::to_string(forecast->relativeBias) + ": ask for a larger error");
+    const std::optional<Forecast> standard = search.forecast(base);
+    if (!standard) return std::nullopt;
+    held.spp = forecast->samples;
+    progress("verification");
+    const std::optional<Achieved> achieved = search.run(held);
+    if (!achieved) return std::nullopt;
+    advice.settings = held;
+    advice.forecast = *forecast;
+    advice.standard = *standard;
+    advice.achieved = *achieved;
+    return advice;
+}
+
+}  // namespace raylab

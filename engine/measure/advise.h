@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/measure/probe.h"
+#include "engine/measure/statistics.h"
+
+namespace raylab {
+
+/// What a rendering is to come to: one of the two numbers is 0.
+struct AdviceGoal {
+    double relativeError = 0.0;
+    double seconds = 0.0;
+    std::vector<std::string> only;  ///< settings that are searched, of adviceSettings(); empty: all
+};
+
+/// Settings that a search tries values of, in its order.
+std::vector<std::string> adviceSettings();
+
+/// A value of a setting, against the one that was held when it was tried.
+struct AdviceOption {
+    std::string value;
+    Interval gain;  ///< seconds to the goal's error with the held value over those with this one; 0: never there
+    double relativeBias = 0.0;  ///< root of the squared bias where it is one
+    double energy = 0.0;        ///< of the picture, over the reference's
+    double buildSeconds = 0.0;
+};
+
+/// One setting's turn.
+struct AdviceStep {
+    std::string setting;
+    std::string held;                   ///< value before
+    std::string chosen;                 ///< value after: another only where its gain is one with 95 % confidence
+    std::vector<AdviceOption> options;  ///< the held value is the first
+};
+
+/// What a configuration will take, by measurements at two numbers of samples.
+struct Forecast {
+    uint32_t samples = 0;
+    double seconds = 0.0;  ///< of the device, for rendering
+    double relativeError = 0.0;
+    double relativeBias = 0.0;
+};
+
+/// What a run then took.
+struct Achieved {
+    double seconds = 0.0;
+    double relativeError = 0.0;  ///< without the reference's noise
+};
+
+struct Advice {
+    RenderSettings settings;  ///< spp included
+    std::vector<AdviceStep> steps;
+    Forecast forecast;
+    Forecast standard;  ///< of the settings that the search began with; samples 0: they never reach the error
+    Achieved achieved;
+};
+
+/// Where a search stands, for the user who waits.
+using AdviceProgress = std::function<void(const std::string& what)>;
+
+/// Finds the settings that reach the goal soonest on this scene and device by coordinate search: depth, integrator,
+/// choice of lights, sampler, roulette, tracer, layout and builder in turn, each value measured beside the one that is
+/// held. Then forecasts, and runs once to see whether that was right. Nothing where `stop` says so. Throws Error where
+/// nothing that was tried reaches the error. `base` must be resolved for the device; the scene's environment must not
+/// be settled.
+std::optional<Advice> advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
+                             const AdviceGoal& goal, const std::function<bool()>& stop, const AdviceProgress& progress);
+
+}  // namespace raylab

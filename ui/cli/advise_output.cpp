@@ -1,0 +1,162 @@
+#include "ui/cli/advise_output.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "ui/cli/chart_output.h"
+#include "ui/cli/options.h"
+#include "ui/cli/settings_file.h"
+
+namespace raylab {
+namespace {
+
+std::string percent(double share) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g %%", 100.0 * share);
+    return text.data();
+}
+
+nlohmann::ordered_json finite(double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json intervalJson(const Interval& interval) {
+    return {{"value", finite(interval.value)}, {"low", finite(interval.low)}, {"high", finite(interval.high)}};
+}
+
+nlohmann::ordered_json forecastJson(const Forecast& forecast) {
+    if (forecast.samples == 0) return {{"reached", false}, {"relativeBias", forecast.relativeBias}};
+    return {{"reached", true},
+            {"samples", forecast.samples},
+            {"deviceSeconds", forecast.seconds},
+            {"relativeError", forecast.relativeError},
+            {"relativeBias", forecast.relativeBias}};
+}
+
+nlohmann::ordered_json stepJson(const AdviceStep& step) {
+    nlohmann::ordered_json options = nlohmann::ordered_json::array();
+    for (const AdviceOption& option : step.options)
+        options.push_back({{"value", option.value},
+                           {"gain", intervalJson(option.gain)},
+                           {"relativeBias", option.relativeBias},
+                           {"energy", option.energy},
+                           {"buildSeconds", option.buildSeconds}});
+    return {{"setting", step.setting}, {"before", step.held}, {"chosen", step.chosen}, {"options", options}};
+}
+
+std::string gainText(const Interval& gain) {
+    if (gain.value == 0.0) return "its bias is too large";
+    if (std::isinf(gain.value)) return "reaches the error, which the former does not";
+    return "x " + shortNumber(gain.value) + " (" + shortNumber(gain.low) + " to " + shortNumber(gain.high) + ")";
+}
+
+void printStep(const AdviceStep& step) {
+    std::cout << "  " << step.setting << " " << step.chosen;
+    if (step.chosen == step.held) {
+        std::cout << ", as before: nothing gains\n";
+    } else {
+        const auto chosen = std::ranges::find(step.options, step.chosen, &AdviceOption::value);
+        std::cout << " instead of " << step.held << ": " << gainText(chosen->gain) << "\n";
+    }
+    for (const AdviceOption& option : step.options) {
+        if (option.value == step.held || option.value == step.chosen) continue;
+        std::cout << "      " << option.value << ": " << gainText(option.gain);
+        if (option.relativeBias > 0.0) std::cout << ", relative bias " << shortNumber(option.relativeBias);
+        std::cout << "\n";
+    }
+}
+
+/// The least depth whose picture has all of the light, to what an 8-bit display can show.
+void printDepth(const std::vector<AdviceStep>& steps) {
+    const auto step = std::ranges::find(steps, "depth", &AdviceStep::setting);
+    if (step == steps.end()) return;
+    std::cout << "  light by depth:";
+    std::vector<AdviceOption> options = step->options;
+    std::ranges::sort(options, {}, [](const AdviceOption& option) { return std::stoll(option.value); });
+    for (const AdviceOption& option : options) std::cout << "  " << option.value << ": " << percent(option.energy);
+    std::cout << "\n";
+}
+
+void printUnneeded(const AdviceReport& report) {
+    std::cout << "What the scene does not need\n";
+    printDepth(report.advice.steps);
+    size_t idle = 0;
+    for (const LightShare& light : report.lights)
+        if (light.share.high < kNoEffect) {
+            ++idle;
+            std::cout << "  " << light.name << " has no effect: it gives " << percent(light.share.value)
+                      << " of the light\n";
+        }
+    if (idle == 0) std::cout << "  every light that was tried (" << report.lights.size() << ") has an effect\n";
+    for (const FineTexture& texture : report.textures)
+        std::cout << "  texture " << texture.name << " (" << texture.width << " x " << texture.height << ") has "
+                  << shortNumber(texture.texelsPerPixel) << " texels or more along each pixel\n";
+}
+
+void printForecast(const char* who, const Forecast& forecast) {
+    std::cout << "  " << who << ": ";
+    if (forecast.samples == 0)
+        std::cout << "never, its relative bias is " << shortNumber(forecast.relativeBias) << "\n";
+    else
+        std::cout << forecast.samples << " samples, " << secondsText(forecast.seconds) << ", relative error "
+                  << shortNumber(forecast.relativeError) << "\n";
+}
+
+}  // namespace
+
+nlohmann::ordered_json adviceJson(const AdviceReport& report) {
+    nlohmann::ordered_json steps = nlohmann::ordered_json::array(), lights = steps, textures = steps;
+    for (const AdviceStep& step : report.advice.steps) steps.push_back(stepJson(step));
+    for (const LightShare& light : report.lights)
+        lights.push_back({{"name", light.name}, {"share", intervalJson(light.share)}});
+    for (const FineTexture& t : report.textures)
+        textures.push_back(
+            {{"name", t.name}, {"width", t.width}, {"height", t.height}, {"texelsPerPixel", t.texelsPerPixel}});
+    return {
+        {"schema", "raylab.advise/1"},
+        {"version", RAYLAB_VERSION},
+        {"scene", report.scene},
+        {"device", report.device},
+        {"targetError", report.goal.relativeError},
+        {"timeLimit", report.goal.seconds},
+        {"reference", {{"from", report.reference.origin}, {"relativeError", report.reference.relativeError}}},
+        {"settings", settingsJson(report.advice.settings)},
+        {"steps", steps},
+        {"forecast", forecastJson(report.advice.forecast)},
+        {"default", forecastJson(report.advice.standard)},
+        {"achieved",
+         {{"deviceSeconds", report.advice.achieved.seconds}, {"relativeError", report.advice.achieved.relativeError}}},
+        {"lights", lights},
+        {"texturesBelowPixels", textures}};
+}
+
+nlohmann::ordered_json presetJson(const AdviceReport& report) {
+    nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+    const nlohmann::ordered_json all = settingsJson(report.advice.settings);
+    for (const AdviceStep& step : report.advice.steps) settings[step.setting] = all[step.setting];
+    settings["spp"] = report.advice.settings.spp;
+    return {{"schema", "raylab.preset/1"},
+            {"scene", report.scene},
+            {"device", report.device},
+            {"forecast", forecastJson(report.advice.forecast)},
+            {"settings", settings}};
+}
+
+void printAdvice(const AdviceReport& report) {
+    const Advice& advice = report.advice;
+    std::cout << "What it chose, each by its gain: time to the same error before, over that after\n";
+    for (const AdviceStep& step : advice.steps) printStep(step);
+    printUnneeded(report);
+    std::cout << "Forecast\n";
+    printForecast("advised", advice.forecast);
+    printForecast("default", advice.standard);
+    std::cout << "  achieved by one run: " << secondsText(advice.achieved.seconds) << ", relative error "
+              << shortNumber(advice.achieved.relativeError) << "\n"
+              << "raylab render " << shellQuoted(report.scene) << settingsAsOptions(advice.settings) << " --spp "
+              << advice.settings.spp << "\n";
+}
+
+}  // namespace raylab

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/gpu/device.h"
+#include "engine/measure/chart_run.h"
+
+namespace raylab {
+
+/// Names of the sets of configurations that come with raylab.
+std::vector<std::string> chartSetNames();
+
+/// What the user asked a chart to compare.
+struct ChartRequest {
+    std::vector<std::string> sets;  ///< names; those of several sets stand side by side
+    std::vector<std::string> vary;  ///< NAME=A,B,C: every combination, of each configuration
+    std::string file;               ///< JSON: see docs/charts.md; empty: none
+};
+
+/// Named configurations over the base, resolved for the device, none twice; the base alone where nothing is asked for.
+/// What a device cannot run is left out of a set, with a notice. Throws Error for what is no set, no setting or no
+/// value of one, and for a tracer that was asked for and is missing.
+std::vector<ChartConfig> chartConfigs(const RenderSettings& base, const ChartRequest& request,
+                                      const DeviceDescription& device);
+
+}  // namespace raylab

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/measure/chart_analysis.h"
+#include "engine/measure/chart_run.h"
+
+namespace raylab {
+
+/// A chart as it stands: what its files are written from.
+struct Chart {
+    std::filesystem::path folder;
+    std::string scene;      ///< as the user named it
+    std::string sceneHash;  ///< of its contents
+    std::string device;
+    std::string referenceChoice;  ///< path, own, or the hash of the file's bytes
+    double referenceError = 0.0;  ///< that was asked for
+    double targetError = 0.0;     ///< that the report answers for besides its own choice; 0: none
+    ChartPlan plan;
+    std::vector<const Reference*> references;  ///< of each configuration
+    ChartTable table;
+    std::vector<ChartCurve> curves;
+    std::vector<int> levelLimits;  ///< below plan.levels: the time limit ended it
+    std::vector<std::optional<RenderTimes>> setupTimes;
+    bool isInterrupted = false;
+
+    std::filesystem::path csvFile() const { return folder / "chart.csv"; }
+    std::filesystem::path jsonFile() const { return folder / "chart.json"; }
+    /// A small picture of a configuration with so many samples, and of its error.
+    std::filesystem::path pictureFile(size_t config, uint32_t samples) const;
+    std::filesystem::path heatFile(size_t config, uint32_t samples) const;
+    /// "raylab render ..." for a configuration, without seed, samples and output.
+    std::string renderCommand(size_t config) const;
+};
+
+/// Computes the curves from the table.
+void analyse(Chart& chart);
+
+void writeChartCsv(const Chart& chart);
+
+/// What makes points comparable: of the scene, the device, the reference and each configuration.
+nlohmann::ordered_json chartIdentity(const Chart& chart);
+
+/// What an earlier run left in the folder, nothing for an empty one.
+struct EarlierChart {
+    ChartTable table;
+    std::vector<PartialSeeds> partials;
+};
+
+/// Throws Error, saying what differs, where the folder holds points of another scene, device, reference or settings, or
+/// a table of unknown origin.
+std::optional<EarlierChart> loadEarlier(const Chart& chart);
+
+/// Seeds without their last ones, for the run that resumes; what was there before goes.
+void writePartials(const Chart& chart, const std::vector<PartialSeeds>& partials);
+
+/// The pictures of a point, as small PNG files.
+void writePictures(const Chart& chart, const ChartShot& shot);
+
+}  // namespace raylab

@@ -1,0 +1,116 @@
+#include <iostream>
+
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "engine/render/device_defaults.h"
+#include "engine/scene/import.h"
+#include "ui/cli/advise_output.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/interrupt.h"
+#include "ui/cli/options.h"
+#include "ui/cli/progress.h"
+
+namespace raylab {
+namespace {
+
+struct AdviseOptions {
+    explicit AdviseOptions(CLI::App& command) : settings(command) {}
+
+    SettingOptions settings;
+    std::string scene;
+    std::string preset;
+    std::string json;
+    std::vector<std::string> only;
+    double referenceError = 0.0;
+    bool quiet = false;
+};
+
+/// A reference may have half of the error that is judged by it: its noise is known, and taken off.
+constexpr double kReferenceShare = 0.5;
+constexpr double kReferenceErrorOfTime = 0.02;
+
+AdviceGoal goalOf(const RenderSettings& settings) {
+    if ((settings.targetError > 0.0) == (settings.timeLimit > 0.0))
+        throw Error("give either --target-error, a relative error such as 0.05, or --time-limit, in seconds");
+    return {settings.targetError, settings.timeLimit, {}};
+}
+
+double referenceErrorOf(const AdviseOptions& options, const AdviceGoal& goal) {
+    if (options.referenceError > 0.0) return options.referenceError;
+    return goal.relativeError > 0.0 ? kReferenceShare * goal.relativeError : kReferenceErrorOfTime;
+}
+
+[[noreturn]] void throwInterrupted() { throw Error("interrupted; nothing was written"); }
+
+AdviceReport makeReport(Device& device, const Scene& scene, const RenderSettings& base, const AdviseOptions& options) {
+    AdviceReport report;
+    report.scene = options.scene;
+    report.device = device.description().name;
+    report.goal = goalOf(base);
+    report.goal.only = options.only;
+    report.base = resolveForDevice(base, device.description());
+    report.base.timeLimit = report.base.targetError = 0.0;
+    const double error = referenceErrorOf(options, report.goal);
+    logInfo("reference: path tracing to a relative error of " + settingText(error));
+    Progress progress(options.quiet);
+    std::optional<Reference> reference =
+        obtainReference(device, scene, referenceSettings(report.base, ReferenceKind::path), error, referenceFolder(),
+                        InterruptGuard::isInterrupted, [&](double done) { progress.show(done, 0, -1.0); });
+    progress.finish();
+    if (!reference) throwInterrupted();
+    report.reference = std::move(*reference);
+    std::optional<Advice> advice =
+        advise(device, scene, report.base, report.reference, report.goal, InterruptGuard::isInterrupted,
+               [](const std::string& what) { logInfo(what); });
+    if (!advice) throwInterrupted();
+    report.advice = std::move(*advice);
+    logInfo("lights");
+    auto lights = lightShares(device, scene, report.advice.settings, report.reference, InterruptGuard::isInterrupted);
+    if (!lights) throwInterrupted();
+    report.lights = std::move(*lights);
+    report.textures = texturesBelowPixels(scene, report.base);
+    return report;
+}
+
+ExitCode adviseScene(const AdviseOptions& options) {
+    setQuiet(options.quiet);
+    const RenderSettings base = options.settings.resolve();
+    goalOf(base);
+    requireReadableFile(scenePath(options.scene));
+    if (!options.preset.empty()) requireWritable(options.preset);
+    if (!options.json.empty() && options.json != "-") requireWritable(options.json);
+    Device device({base.device, base.validation});
+    const Scene scene = importScene(scenePath(options.scene));
+    for (const std::string& warning : scene.warnings) logWarning(warning);
+    const InterruptGuard guard;
+    const AdviceReport report = makeReport(device, scene, base, options);
+    if (!options.preset.empty()) writeJson(options.preset, presetJson(report));
+    if (!options.json.empty()) writeJson(options.json, adviceJson(report));
+    if (options.json != "-") printAdvice(report);
+    return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;
+}
+
+}  // namespace
+
+void addAdviseCommand(CLI::App& app, Command& chosen) {
+    CLI::App* command =
+        app.add_subcommand("advise", "the cheapest settings for an error or a time, by a short measured search");
+    const auto options = std::make_shared<AdviseOptions>(*command);
+    command->add_option("scene", options->scene, "glTF, GLB, OBJ, PLY or STL; or the name of a scene of raylab's own")
+        ->required();
+    command->add_option("-o,--output", options->preset, "JSON file for --preset")->type_name("FILE");
+    command->add_option("--json", options->json, "write all that was measured to a file, or - for standard output")
+        ->type_name("FILE");
+    command
+        ->add_option("--reference-error", options->referenceError,
+                     "relative error of the reference; 0: half of the target")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command->add_option("--only", options->only, "settings to search; without: all")
+        ->delimiter(',')
+        ->check(CLI::IsMember(adviceSettings()));
+    command->add_flag("--quiet", options->quiet, "no progress; warnings only");
+    command->callback([&chosen, options] { chosen = [options] { return adviseScene(*options); }; });
+}
+
+}  // namespace raylab
