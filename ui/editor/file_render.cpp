@@ -1,0 +1,68 @@
+#include "ui/editor/file_render.h"
+
+#include <array>
+#include <cstdio>
+
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "engine/core/stopwatch.h"
+#include "engine/image/image8.h"
+#include "engine/image/image_io.h"
+#include "engine/render/lighting.h"
+#include "engine/render/renderer.h"
+#include "ui/editor/picture.h"
+
+namespace raylab {
+namespace {
+
+constexpr double kLookInterval = 1.0;  ///< seconds between looks at the noise
+
+void writeImage(const std::filesystem::path& path, const FilmImage& film, const RenderSettings& settings,
+                float diagonal) {
+    Metadata metadata;
+    for (const Setting<RenderSettings>& setting : renderSettingsTable())
+        metadata.emplace_back(setting.name, settingText(getSetting(setting, settings)));
+    if (path.extension() == ".exr")
+        writeExr(path,
+                 std::array{Layer{"", film.mean}, Layer{"variance", film.variance}, Layer{"samples", film.samples}},
+                 metadata);
+    else
+        writePng(path, displayImage(film.mean, settings, diagonal), metadata);
+    logInfo("rendered " + std::filesystem::absolute(path).string());
+}
+
+std::string progressText(const std::filesystem::path& path, double done) {
+    std::array<char, 16> percent{};
+    std::snprintf(percent.data(), percent.size(), "  %.0f %%", 100.0 * done);
+    return "Rendering " + path.filename().string() + percent.data();
+}
+
+}  // namespace
+
+void renderImage(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                 const std::filesystem::path& path, JobControl& control) {
+    requireWritable(path);
+    Device device({settings.device, settings.validation});
+    Scene settled = scene;
+    settleEnvironment(settled, settings);
+    settled.cameras.insert(settled.cameras.begin(), camera);
+    RenderSettings own = settings;
+    own.camera = "0";
+    Renderer renderer(device, settled, own);
+    const Stopwatch watch;
+    double nextLook = kLookInterval;
+    bool enough = false;
+    while (!enough && renderer.step()) {
+        if (control.isCancelled()) return;
+        if (watch.seconds() < nextLook) continue;
+        nextLook = watch.seconds() + kLookInterval;
+        control.report(progressText(path, renderer.fractionDone()));
+        if (renderer.completeSamples() == 0) continue;
+        enough = (own.timeLimit > 0.0 && watch.seconds() >= own.timeLimit) ||
+                 (own.targetError > 0.0 && renderer.completeSamples() > 1 &&
+                  renderer.snapshot().estimatedRelativeError <= own.targetError);
+    }
+    writeImage(path, renderer.snapshot(), own, renderer.sceneDiagonal());
+}
+
+}  // namespace raylab

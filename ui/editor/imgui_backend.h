@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "engine/gpu/device.h"
+#include "ui/editor/handles.h"
+
+struct GLFWwindow;
+
+namespace raylab {
+
+/// The pointer as a script moves it, in ImGui's coordinates.
+struct PointerOverride {
+    float x = 0.0f;
+    float y = 0.0f;
+    std::array<bool, 3> down{};
+    float wheel = 0.0f;
+};
+
+/// ImGui's context with its backends for GLFW and Vulkan: the one place that knows which version of ImGui this is.
+class ImGuiBackend {
+public:
+    /// Installs callbacks in front of those that the window has. `scale`: of fonts and sizes.
+    ImGuiBackend(GLFWwindow* window, Device& device, VkRenderPass renderPass, uint32_t imageCount, float scale);
+    ~ImGuiBackend();
+    ImGuiBackend(const ImGuiBackend&) = delete;
+    ImGuiBackend& operator=(const ImGuiBackend&) = delete;
+
+    /// Begins a frame; `pointer` replaces the mouse where given.
+    void newFrame(const std::optional<PointerOverride>& pointer);
+    /// A key or a character of a script, for ImGui and for those whose callbacks it calls.
+    void injectKey(int key, bool down, int mods);
+    void injectCharacter(unsigned character);
+    /// Ends the frame of the interface: what is to be drawn is known.
+    void endFrame();
+    void draw(VkCommandBuffer commands);
+
+private:
+    void initVulkan(VkRenderPass renderPass, uint32_t imageCount);
+
+    GLFWwindow* window_;
+    Device& device_;
+    DescriptorPoolHandle pool_;
+};
+
+}  // namespace raylab

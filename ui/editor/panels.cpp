@@ -1,0 +1,19 @@
+#include "ui/editor/panels.h"
+
+#include <array>
+
+namespace raylab {
+
+std::span<const Panel> panelTable() {
+    static constexpr std::array kPanels = {
+        Panel{"Viewport", drawViewportPanel, Pane::centre},
+        Panel{"Scene", drawScenePanel, Pane::left},
+        Panel{"Inspector", drawInspectorPanel, Pane::right},
+        Panel{"Render", drawRenderPanel, Pane::right},
+        Panel{"Log", drawLogPanel, Pane::bottom},
+        Panel{"Kernel", drawKernelPanel, Pane::bottom},
+    };
+    return kPanels;
+}
+
+}  // namespace raylab

@@ -1,0 +1,367 @@
+#include "ui/editor/render_worker.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "engine/core/stopwatch.h"
+#include "engine/render/camera.h"
+#include "engine/render/lighting.h"
+#include "engine/render/ray_caster.h"
+#include "engine/render/renderer.h"
+#include "ui/editor/model/edit_kinds.h"
+#include "ui/editor/picture.h"
+
+namespace raylab {
+namespace {
+
+constexpr int kNice = 10;
+/// A slice at most, so that a new request waits no longer than that.
+constexpr double kSliceMs = 25.0;
+/// A moving picture may take so long; at the largest divisor it may take longer.
+constexpr double kMovingSeconds = 0.06;
+constexpr uint32_t kLargestDivisor = 8;
+/// Unless a new request is waiting for longer than this, a moving picture is finished.
+constexpr double kPatienceSeconds = 0.2;
+/// Pictures are published at most so often, and take no more than this share of the time.
+constexpr double kPublishInterval = 0.12;
+constexpr double kPublishShare = 0.12;
+constexpr double kStatusInterval = 0.1;
+
+class RenderWorker {
+public:
+    RenderWorker(RenderSession& session, const std::string& selector, bool validation)
+        : session_(session), device_({selector, validation}) {
+        session.report([&](RenderStatus& status) { status.device = device_.description().name; });
+    }
+
+    void run() {
+        while (const auto task = session_.nextTask(rendering_ && !paused_)) {
+            try {
+                attend(*task);
+            } catch (const Cancelled&) {
+                report(renderer_ ? RenderPhase::done : RenderPhase::idle, "cancelled");
+            } catch (const Error& error) {
+                fail(error.what());
+            } catch (const std::bad_alloc&) {
+                fail("out of memory; use a smaller scene or picture");
+            }
+            session_.setValidationMessages(device_.validationMessageCount());
+        }
+    }
+
+private:
+    void attend(const RenderSession::Task& task) {
+        if (task.paused != paused_) pause(task.paused);
+        if (task.request) adopt(*task.request);
+        if (task.reload && wanted_.scene) prepare();
+        if (task.pick) answerPick(*task.pick);
+        if (renderer_ && rendering_ && !paused_) advance();
+    }
+
+    void fail(const std::string& message) {
+        logError(message);
+        session_.report([&](RenderStatus& status) {
+            status.error = message;
+            status.phase = rendering_ ? RenderPhase::rendering : RenderPhase::idle;
+            status.text.clear();
+        });
+    }
+
+    void report(RenderPhase phase, const std::string& text) {
+        session_.report([&](RenderStatus& status) {
+            status.phase = phase;
+            status.text = text;
+        });
+    }
+
+    void pause(bool paused) {
+        paused_ = paused;
+        if (rendering_) report(paused ? RenderPhase::paused : RenderPhase::rendering, "");
+    }
+
+    /// Does what the step from the request before to this one takes.
+    void adopt(const RenderRequest& request) {
+        using namespace editor;
+        const RenderRequest before = std::exchange(wanted_, request);
+        const bool isFirst = before.scene == nullptr;
+        const uint32_t kinds = isFirst ? uint32_t{kEditEverything}
+                                       : (editKinds(*before.scene, *request.scene) & ~uint32_t{kEditCamera}) |
+                                             editKinds(before.settings, request.settings);
+        const auto touches = [kinds](uint32_t mask) { return (kinds & mask) != 0; };
+        if (touches(kEditTrees | kEditGeometry)) return prepare();
+        if (!renderer_) return;
+        if (touches(kEditTransforms)) return moveInstances();
+        if (touches(kEditMaterials | kEditLights | kEditEnvironment)) return updateShading();
+        if (touches(kEditKernel)) return restart("Compiling the kernel");
+        if (touches(kEditCamera) || isOtherView(before, request)) return restart("");
+        if (touches(kEditFilm)) return publish();
+        if (touches(kEditBudget)) resume();
+    }
+
+    bool isOtherView(const RenderRequest& before, const RenderRequest& request) const {
+        return !(before.camera == request.camera) || before.width != request.width || before.height != request.height ||
+               chooseDivisor() != divisor_;
+    }
+
+    /// The largest picture that a moving view has time for.
+    uint32_t chooseDivisor() const {
+        if (preview_) return kLargestDivisor;
+        if (!wanted_.moving) return 1;
+        const double full = secondsPerPixel_ * wanted_.width * wanted_.height;
+        for (uint32_t divisor = 1; divisor < kLargestDivisor; divisor *= 2)
+            if (full / (divisor * divisor) <= kMovingSeconds) return divisor;
+        return kLargestDivisor;
+    }
+
+    /// The settings of the film that is rendered now.
+    RenderSettings filmSettings() {
+        divisor_ = chooseDivisor();
+        RenderSettings settings = wanted_.settings;
+        settings.width = std::max<int64_t>(wanted_.width / divisor_, 1);
+        settings.height = std::max<int64_t>(wanted_.height / divisor_, 1);
+        settings.sliceMs = std::min(settings.sliceMs, kSliceMs);
+        settings.camera = "0";
+        if (moved_) settings.trees = "mesh";
+        return settings;
+    }
+
+    Scene settledScene() {
+        Scene scene = *wanted_.scene;
+        settleEnvironment(scene, wanted_.settings);
+        return scene;
+    }
+
+    void prepare() {
+        session_.report([](RenderStatus& status) { status.error.clear(); });
+        report(RenderPhase::preparing, "Reading the environment");
+        const Scene scene = settledScene();
+        BuildControl control;
+        control.cancel = &session_.cancelled();
+        control.progress = [this](float part) {
+            report(RenderPhase::preparing,
+                   "Building the BVH  " + std::to_string(static_cast<int>(100.0f * part)) + " %");
+        };
+        report(RenderPhase::preparing, "Building the BVH");
+        preview_ = true;  // first a small picture, then that of the size that is wanted
+        const RenderSettings settings = filmSettings();
+        auto prepared = std::make_shared<PreparedScene>(prepareScene(device_, scene, settings, control));
+        prepared->camera = wanted_.camera;
+        report(RenderPhase::preparing, "Compiling the kernel");
+        auto renderer = std::make_unique<Renderer>(device_, prepared, settings);
+        caster_.reset();
+        renderer_ = std::move(renderer);
+        prepared_ = std::move(prepared);
+        diagonal_ = renderer_->sceneDiagonal();
+        secondsPerPixel_ = kUnknownCost;
+        describe();
+        begin();
+    }
+
+    void moveInstances() {
+        if (!moved_) {
+            moved_ = true;  // from here on each mesh has a tree of its own below its instances, which can be moved
+            return prepare();
+        }
+        const Scene scene = settledScene();
+        caster_.reset();
+        renderer_->update(scene, {.instances = true, .meshes = {}});
+        restart("");
+    }
+
+    void updateShading() {
+        const Scene scene = settledScene();
+        caster_.reset();
+        renderer_->updateShading(scene);
+        restart("");
+    }
+
+    /// `meanwhile`: what takes long about it; empty where nothing does.
+    void restart(const std::string& meanwhile) {
+        keepBackdrop();
+        if (!meanwhile.empty()) report(RenderPhase::preparing, meanwhile);
+        renderer_->restart(filmSettings(), wanted_.camera);
+        begin();
+    }
+
+    /// A film has just been started.
+    void begin() {
+        lastNoise_ = -1.0;
+        publishedSamples_ = 0;
+        resume();
+    }
+
+    void resume() {
+        if (!renderer_) return;
+        renderer_->setSampleGoal(wanted_.settings.spp);
+        rendering_ = true;
+        report(paused_ ? RenderPhase::paused : RenderPhase::rendering, "");
+    }
+
+    /// What is shown where the next film has nothing yet.
+    void keepBackdrop() {
+        if (lastMean_.pixelCount() > 0) backdrop_ = lastMean_;
+    }
+
+    void advance() {
+        bool more = true;
+        const Stopwatch watch;
+        do {
+            more = renderer_->step();
+        } while (wanted_.moving && more && renderer_->completeSamples() == 0 &&
+                 (watch.seconds() < kPatienceSeconds || !session_.hasRequest()));
+        measureCost();
+        if (preview_ && renderer_->completeSamples() > 0) {
+            preview_ = false;
+            publish();
+            if (chooseDivisor() != divisor_) return restart("");
+        }
+        const std::string reason = more ? reasonToStop() : "samples";
+        if (!reason.empty()) rendering_ = false;
+        const bool isFirstPass = renderer_->completeSamples() > 0 && publishedSamples_ == 0;
+        if (!rendering_ || isFirstPass || sincePublish_.seconds() >= publishInterval_) publish();
+        if (!reason.empty())
+            report(RenderPhase::done, reason);
+        else if (sinceStatus_.seconds() >= kStatusInterval)
+            describeProgress(nullptr);
+    }
+
+    /// Why the rendering should end before its samples are done; empty where it should not.
+    std::string reasonToStop() const {
+        const RenderSettings& s = wanted_.settings;
+        if (renderer_->completeSamples() == 0) return "";
+        if (s.timeLimit > 0.0 && renderer_->times().render >= s.timeLimit) return "time limit";
+        if (s.targetError > 0.0 && lastNoise_ >= 0.0 && lastNoise_ <= s.targetError) return "target error";
+        return "";
+    }
+
+    void measureCost() {
+        if (renderer_->pixelSamples() > 0)
+            secondsPerPixel_ = renderer_->times().render / static_cast<double>(renderer_->pixelSamples());
+    }
+
+    void publish() {
+        const Stopwatch watch;
+        const FilmImage film = renderer_->snapshot();
+        if (renderer_->completeSamples() > 1) lastNoise_ = film.estimatedRelativeError;
+        auto picture = std::make_shared<Picture>(developPicture(film, backdrop_, wanted_.settings, diagonal_));
+        picture->camera = prepared_->camera;
+        picture->samples = renderer_->completeSamples();
+        picture->number = ++pictureCount_;
+        publishedSamples_ = picture->samples;
+        if (renderer_->completeSamples() > 0) lastMean_ = film.mean;
+        session_.publish(std::move(picture));
+        describeProgress(&film);
+        publishInterval_ = std::max(kPublishInterval, watch.seconds() / kPublishShare);
+        sincePublish_.restart();
+    }
+
+    /// What only changes with the kernel or the scene.
+    void describe() {
+        session_.report([&](RenderStatus& status) {
+            const RenderTimes& times = renderer_->times();
+            status.buildSeconds = times.build;
+            status.uploadSeconds = times.upload;
+            status.compileSeconds = times.compile;
+            status.needs = prepared_->needs.needs;
+            status.kernelNeeds = prepared_->kernelNeeds;
+            status.tracer = prepared_->tracer->info().name;
+            status.sceneBytes = prepared_->gpu->memoryBytes();
+            status.traceBytes = prepared_->tracer->memoryBytes();
+        });
+    }
+
+    void describeProgress(const FilmImage* film) {
+        const RenderTimes& times = renderer_->times();
+        const double done = renderer_->fractionDone();
+        session_.report([&](RenderStatus& status) {
+            status.samples = renderer_->completeSamples();
+            status.samplesWanted = static_cast<uint32_t>(wanted_.settings.spp);
+            status.relativeError = lastNoise_;
+            status.seconds = times.render;
+            status.secondsLeft = done > 0.0 ? times.render * (1.0 - done) / done : 0.0;
+            if (wanted_.settings.timeLimit > 0.0)
+                status.secondsLeft =
+                    std::min(status.secondsLeft, std::max(wanted_.settings.timeLimit - times.render, 0.0));
+            status.longestDispatch = times.longestDispatch;
+            status.divisor = divisor_;
+            status.filmBytes = renderer_->filmBytes();
+            if (film == nullptr) return;
+            status.width = static_cast<uint32_t>(film->mean.width);
+            status.height = static_cast<uint32_t>(film->mean.height);
+            if (times.render > 0.0) status.raysPerSecond = static_cast<double>(film->rays) / times.render;
+        });
+        sinceStatus_.restart();
+    }
+
+    void answerPick(const RenderSession::PickTask& task) {
+        PickResult result{.ticket = task.ticket};
+        if (renderer_) {
+            if (!caster_) caster_ = std::make_unique<RayCaster>(device_, prepared_, wanted_.settings);
+            shared::FrameParams frame{};
+            constexpr uint32_t kHeight = 1024;
+            writeCamera(task.camera, static_cast<uint32_t>(std::lround(kHeight * task.aspect)), kHeight, frame);
+            const auto x = static_cast<float>(2.0 * task.x - 1.0), y = static_cast<float>(1.0 - 2.0 * task.y);
+            const glm::vec3 direction =
+                glm::normalize(frame.cameraForward + x * frame.cameraRight + y * frame.cameraUp);
+            const shared::RayData ray{task.camera.position, 0.0f, direction, 3.0e38f};
+            const shared::HitData hit = caster_->closest(std::span(&ray, 1)).front();
+            result.hit = hit.t >= 0.0f;
+            if (result.hit) {
+                result.instance = hit.instance;
+                result.primitive = hit.primitive;
+                result.distance = hit.t;
+                result.position = ray.origin + hit.t * ray.direction;
+            }
+        }
+        session_.answer(result);
+    }
+
+    static constexpr double kUnknownCost = 1e-6;  ///< seconds a pixel: a guess that leads to small pictures at first
+
+    RenderSession& session_;
+    Device device_;
+    RenderRequest wanted_;
+    std::shared_ptr<PreparedScene> prepared_;
+    std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<RayCaster> caster_;
+    bool rendering_ = false;
+    bool paused_ = false;
+    bool preview_ = false;           ///< the film is the first one of what was prepared
+    uint32_t publishedSamples_ = 0;  ///< of the film's last picture
+    bool moved_ = false;             ///< an instance has been: trees are laid out for more of it
+    uint32_t divisor_ = 1;
+    double secondsPerPixel_ = kUnknownCost;
+    double lastNoise_ = -1.0;
+    float diagonal_ = 0.0f;
+    Bitmap backdrop_;
+    Bitmap lastMean_;
+    uint64_t pictureCount_ = 0;
+    double publishInterval_ = kPublishInterval;
+    Stopwatch sincePublish_;
+    Stopwatch sinceStatus_;
+};
+
+}  // namespace
+
+void runRenderWorker(RenderSession& session, const std::string& deviceSelector, bool validation) {
+    // A thread that stays as urgent as the others is no reason to give up.
+    if (::setpriority(PRIO_PROCESS, 0, kNice) != 0) logWarning("the rendering thread cannot yield to the interface");
+    try {
+        RenderWorker worker(session, deviceSelector, validation);
+        worker.run();
+    } catch (const std::exception& error) {
+        logError(error.what());
+        const std::string message = error.what();
+        session.report([&](RenderStatus& status) {
+            status.phase = RenderPhase::idle;
+            status.error = message;
+        });
+    }
+}
+
+}  // namespace raylab

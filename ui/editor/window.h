@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/device.h"
+#include "ui/editor/handles.h"
+
+struct GLFWwindow;
+
+namespace raylab {
+
+constexpr int kKeyCount = 512;
+
+/// A key that went down, with GLFW's number of the key and GLFW's modifiers.
+struct KeyPress {
+    int key = 0;
+    int mods = 0;
+};
+
+/// Files that were dropped on the window.
+struct Drop {
+    std::vector<std::filesystem::path> paths;
+    bool shift = false;
+};
+
+/// What came from the keyboard and by drops since the last frame; the pointer is ImGui's.
+struct Input {
+    std::vector<KeyPress> presses;
+    std::array<bool, kKeyCount> down{};
+    std::vector<Drop> drops;
+
+    /// With exactly these modifiers.
+    bool pressed(int key, int mods = 0) const;
+    /// Held, or tapped since the last frame.
+    bool held(int key) const;
+};
+
+/// A window of the desktop and the device that draws it. The device is the window's own, so that what is drawn waits
+/// for no rendering: a queue executes what it is given in order, and lavapipe has only one a device.
+class Window {
+public:
+    /// `selector`: the device that is wanted; another is taken where that one cannot show pictures on this display.
+    /// Throws Error (exit code 3) where there is no display.
+    Window(int width, int height, const std::string& selector, bool validation);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    GLFWwindow* get() const { return window_; }
+    Device& device() { return *device_; }
+    VkSurfaceKHR surface() const { return surface_; }
+
+    /// Waits at most `seconds` for an event, and takes all that there are.
+    void waitEvents(double seconds);
+    bool hasNewEvents() const { return events_ > 0; }
+    /// Latest moment at which the oldest of the events since the last endFrame() can have happened; it may have been
+    /// earlier by as long as the window did not look.
+    std::chrono::steady_clock::time_point oldestEvent() const { return oldestEvent_; }
+    void endFrame();
+
+    const Input& input() const { return input_; }
+    VkExtent2D framebufferSize() const;
+    /// Pixels of the framebuffer for one of the desktop's units: 1, or 2 on a display of high density.
+    float scale() const;
+    void setTitle(const std::string& title);
+    void setSize(int width, int height);
+    bool shouldClose() const;
+    void cancelClose();
+
+private:
+    void openDevice(const std::string& selector, bool validation);
+    bool tryDevice(const std::string& selector, bool validation, std::string& whyNot);
+    void closeDevice();
+    void noteEvent();
+    static void onKey(GLFWwindow* window, int key, int scancode, int action, int mods);
+    static void onDrop(GLFWwindow* window, int count, const char** paths);
+
+    GLFWwindow* window_ = nullptr;
+    std::unique_ptr<Device> device_;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    Input input_;
+    std::string title_;
+    int events_ = 0;
+    std::chrono::steady_clock::time_point lookedLast_;  ///< all that happened before it has been seen
+    std::chrono::steady_clock::time_point oldestEvent_;
+};
+
+/// Ends a wait for events, from any thread.
+void wakeWindow();
+
+}  // namespace raylab
