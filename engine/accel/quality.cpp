@@ -3,20 +3,20 @@
 #include <algorithm>
 
 namespace raylab {
-namespace {
 
-double halfArea(const Aabb& box) {
+double halfAreaDouble(const Aabb& box) {
     const glm::dvec3 e = glm::dvec3(box.hi) - glm::dvec3(box.lo);
     return e.x * (e.y + e.z) + e.y * e.z;
 }
 
-/// Of the intersection; 0 where the boxes are apart or meet in a face only.
 double sharedHalfArea(const Aabb& a, const Aabb& b) {
     for (int axis = 0; axis < 3; ++axis)
         if ((a.hi[axis] == b.lo[axis]) != (b.hi[axis] == a.lo[axis])) return 0.0;
     const Aabb shared{glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
-    return shared.empty() ? 0.0 : halfArea(shared);
+    return shared.empty() ? 0.0 : halfAreaDouble(shared);
 }
+
+namespace {
 
 void countAt(std::vector<uint32_t>& histogram, size_t index) {
     if (histogram.size() <= index) histogram.resize(index + 1, 0);
@@ -47,9 +47,9 @@ BvhQuality measureQuality(const Bvh& bvh, const BvhConfig& config) {
         const BvhNode& node = bvh.nodes[i];
         const double nodeCost = node.isLeaf() ? static_cast<double>(config.intersectionCost) * node.count
                                               : static_cast<double>(config.traversalCost);
-        cost += nodeCost * halfArea(node.bounds);
+        cost += nodeCost * halfAreaDouble(node.bounds);
         if (!node.isLeaf()) {
-            innerArea += halfArea(node.bounds);
+            innerArea += halfAreaDouble(node.bounds);
             sharedArea += sharedHalfArea(bvh.nodes[node.left].bounds, bvh.nodes[node.left + 1].bounds);
             continue;
         }
@@ -57,7 +57,7 @@ BvhQuality measureQuality(const Bvh& bvh, const BvhConfig& config) {
         countAt(quality.leafSizeHistogram, node.count);
         countAt(quality.depthHistogram, depths[i]);
     }
-    const double rootArea = halfArea(bvh.nodes[0].bounds);
+    const double rootArea = halfAreaDouble(bvh.nodes[0].bounds);
     quality.sah = rootArea > 0.0 ? cost / rootArea : 0.0;
     quality.siblingOverlap = innerArea > 0.0 ? sharedArea / innerArea : 0.0;
     quality.depth = *std::max_element(depths.begin(), depths.end());

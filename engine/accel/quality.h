@@ -11,6 +11,11 @@
 
 namespace raylab {
 
+/// Half of the surface area of a box that is not empty, in double precision.
+double halfAreaDouble(const Aabb& box);
+/// The same of the intersection of two boxes; 0 where they are apart or meet in a face only.
+double sharedHalfArea(const Aabb& a, const Aabb& b);
+
 struct BvhQuality {
     /// Expected cost of a long ray that crosses the root (Goldsmith and Salmon 1987; Aila et al. 2013, equation 1):
     /// the areas of inner nodes times traversalCost and of leaves times count times intersectionCost, over the root's

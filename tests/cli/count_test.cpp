@@ -50,5 +50,26 @@ TEST_F(Count, RefusesWhatItCannotDo) {
     expectProgramRefuses("count cornell --width 8 --height 8 -o taken", "taken");
 }
 
+TEST_F(Count, WritesTheWalkOfAPixelsRay) {
+    ASSERT_EQ(runProgram("count cornell --width 32 --height 32 --bounces 0 --walk 16,16 --json a.json"), 0) << text("err");
+    const Json walk = json("a.json")["walk"];
+    EXPECT_EQ(walk["schema"], "raylab.ray-walk/1");
+    EXPECT_GT(walk["steps"].size(), 2u);
+    // Through the middle of the box, from 800 in front of it: nothing is in the way before the short block's face or the
+    // back wall at z = 559.2.
+    EXPECT_GT(walk["hit"]["t"], 800.0);
+    EXPECT_LT(walk["hit"]["t"], 1400.0);
+    expectProgramRefuses("count cornell --width 32 --height 32 --walk 32,0 --json a.json", "not in the picture");
+    expectProgramRefuses("count cornell --width 32 --height 32 --walk 1,1", "--json");
+}
+
+TEST_F(Count, InfoListsTheNodesOfTheTrees) {
+    ASSERT_EQ(runProgram("info cornell --nodes nodes.csv --json a.json"), 0) << text("err");
+    const std::string csv = text("nodes.csv");
+    EXPECT_EQ(csv.rfind("tree,node,parent", 0), 0u) << csv.substr(0, 80);
+    EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), json("a.json")["bvh"]["nodes"].get<size_t>() + 1);
+    expectProgramRefuses("info cornell --nodes /proc/none/nodes.csv", "/proc/none");
+}
+
 }  // namespace
 }  // namespace raylab

@@ -7,6 +7,7 @@
 #include "engine/core/file.h"
 #include "engine/measure/image_pair.h"
 #include "engine/measure/path_counts.h"
+#include "engine/measure/tree_export.h"
 #include "engine/render/camera.h"
 #include "engine/render/device_defaults.h"
 #include "ui/cli/bench_run.h"
@@ -26,6 +27,7 @@ struct CountOptions {
     std::string scene;
     std::string folder;
     std::string json;
+    std::vector<int64_t> walk;  ///< a pixel; empty: none
     int bounces = 2;
     bool materials = false;
 };
@@ -105,7 +107,31 @@ void printCounts(const CountRun& run) {
     }
 }
 
+/// Through the centre of a pixel.
+WalkRay rayThrough(const BenchView& view, const std::vector<int64_t>& pixel) {
+    if (pixel[0] < 0 || pixel[0] >= view.width || pixel[1] < 0 || pixel[1] >= view.height)
+        throw Error("--walk: " + std::to_string(pixel[0]) + "," + std::to_string(pixel[1]) +
+                    " is not in the picture of " + std::to_string(view.width) + " x " + std::to_string(view.height) +
+                    " pixels");
+    shared::FrameParams frame{};
+    writeCamera(view.camera, view.width, view.height, frame);
+    const double x = (2.0 * static_cast<double>(pixel[0]) + 1.0) / view.width - 1.0;
+    const double y = 1.0 - (2.0 * static_cast<double>(pixel[1]) + 1.0) / view.height;
+    const glm::vec3 direction =
+        frame.cameraForward + static_cast<float>(x) * frame.cameraRight + static_cast<float>(y) * frame.cameraUp;
+    return {view.camera.position, glm::normalize(direction)};
+}
+
+nlohmann::ordered_json withWalk(nlohmann::ordered_json json, const CountRun& run, const Scene& scene,
+                                const BenchView& view) {
+    if (run.options.walk.empty()) return json;
+    const TreeInspection trees = inspectTrees(scene, traceConfig(run.settings));
+    json["walk"] = nlohmann::ordered_json::parse(walkJson(trees, walkRay(trees, rayThrough(view, run.options.walk))));
+    return json;
+}
+
 ExitCode count(const CountOptions& options) {
+    if (!options.walk.empty() && options.json.empty()) throw Error("--walk writes into --json; give it a FILE, or -");
     CountRun run{options, options.settings.resolve(), {}, {}};
     if (!options.folder.empty()) requireWritable(fs::path(options.folder) / kHistogramFile);
     const Scene scene = loadBenchScene(options.scene, options.materials);
@@ -124,7 +150,7 @@ ExitCode count(const CountOptions& options) {
         writeMaps(run);
         writeHistograms(run);
     }
-    if (!options.json.empty()) writeJson(options.json, countJson(run));
+    if (!options.json.empty()) writeJson(options.json, withWalk(countJson(run), run, scene, view));
     if (options.json != "-") printCounts(run);
     return device.validationMessageCount() == 0 ? ExitCode::done : ExitCode::internalError;
 }
@@ -141,6 +167,12 @@ void addCountCommand(CLI::App& app, Command& chosen) {
         ->type_name("DIR");
     command->add_option("--bounces", options->bounces, "diffuse bounces after the primary rays")
         ->check(CLI::Range(0, 64));
+    command
+        ->add_option("--walk", options->walk,
+                     "a pixel: the walk of the ray through its centre goes into --json, node by node")
+        ->type_name("X,Y")
+        ->delimiter(',')
+        ->expected(2);
     command->add_flag("--materials", options->materials, "keep the materials, whose alpha tests count too");
     command->add_option("--json", options->json, "write the figures to a file, or - for standard output")
         ->type_name("FILE");

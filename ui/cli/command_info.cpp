@@ -1,8 +1,10 @@
 #include <iomanip>
 #include <iostream>
 
+#include "engine/core/file.h"
 #include "engine/core/stopwatch.h"
 #include "engine/measure/bvh_report.h"
+#include "engine/measure/tree_export.h"
 #include "engine/render/gpu_data.h"
 #include "engine/render/lighting.h"
 #include "engine/scene/bounds.h"
@@ -21,6 +23,7 @@ struct InfoOptions {
     SettingOptions settings;
     std::string scene;
     std::string json;
+    std::string nodes;
     bool bvh = false;
 };
 
@@ -42,7 +45,7 @@ size_t measureSceneBytes(const Scene& scene, float radius) {
     const auto bytes = [](const auto& data) { return std::as_bytes(std::span(data)).size(); };
     return bytes(geometry.instances) + bytes(geometry.triangles) + bytes(geometry.vertices) + bytes(materials.materials) +
            bytes(materials.textures) + bytes(materials.texels) + bytes(lights.emissive) + bytes(lights.punctual) +
-           bytes(lights.environment) + bytes(lights.environmentAlias);
+           bytes(lights.nodes) + bytes(lights.trails) + bytes(lights.environment) + bytes(lights.environmentAlias);
 }
 
 Info gather(const InfoOptions& options) {
@@ -110,8 +113,15 @@ void printInfo(const InfoOptions& options, const Info& info) {
     for (const std::string& warning : s.warnings) std::cout << "  " << warning << "\n";
 }
 
+void writeNodes(const InfoOptions& options, const Info& info) {
+    const std::string csv = nodeListCsv(inspectTrees(info.scene, traceConfig(options.settings.resolve())));
+    writeFileAtomically(options.nodes, std::as_bytes(std::span(csv)));
+}
+
 ExitCode showInfo(const InfoOptions& options) {
+    if (!options.nodes.empty()) requireWritable(options.nodes);
     const Info info = gather(options);
+    if (!options.nodes.empty()) writeNodes(options, info);
     if (!options.json.empty()) writeJson(options.json, infoJson(options, info));
     if (options.json != "-") printInfo(options, info);
     return ExitCode::done;
@@ -124,6 +134,7 @@ void addInfoCommand(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<InfoOptions>(*command);
     command->add_option("scene", options->scene, "glTF, GLB, OBJ, PLY or STL; or the name of a scene of raylab's own")->required();
     command->add_flag("--bvh", options->bvh, "measure the trees thoroughly: end-point overlap, histograms, times; takes seconds");
+    command->add_option("--nodes", options->nodes, "write every node of the trees to a CSV file")->type_name("FILE");
     command->add_option("--json", options->json, "write all of it to a file, or - for standard output")->type_name("FILE");
     command->callback([&chosen, options] { chosen = [options] { return showInfo(*options); }; });
 }
