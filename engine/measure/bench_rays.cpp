@@ -107,8 +107,7 @@ std::vector<SurfacePoint> surfacePoints(const Scene& scene, std::span<const shar
         const glm::vec3 incoming = glm::normalize(rays[i].direction);
         const glm::vec3 point = rays[i].origin + hits[i].t * rays[i].direction;
         const glm::vec3 normal = geometricNormal(scene, hits[i], point);
-        points.push_back({point,
-                          glm::dot(normal, incoming) > 0.0f ? -normal : normal, incoming, pixels[i]});
+        points.push_back({point, glm::dot(normal, incoming) > 0.0f ? -normal : normal, incoming, pixels[i]});
     }
     return points;
 }
@@ -148,7 +147,7 @@ BenchLight defaultBenchLight(const Scene& scene) {
     return {{centre.x, bounds.hi.y - 0.01f * extent.y, centre.z}, 0.125f * extent.x, 0.125f * extent.z};
 }
 
-std::vector<PixelRays> makePathRays(RayCaster& caster, const Scene& scene, const BenchView& view, int bounces) {
+std::vector<PixelRays> makePathRays(HitSource& caster, const Scene& scene, const BenchView& view, int bounces) {
     const std::vector<glm::uvec2> order = pixelOrder(view.width, view.height);
     std::vector<uint32_t> places(order.size());  // in that order, which random numbers depend on
     for (uint32_t i = 0; i < places.size(); ++i) places[i] = i;
@@ -159,12 +158,13 @@ std::vector<PixelRays> makePathRays(RayCaster& caster, const Scene& scene, const
         for (const uint32_t place : places) path.pixels.push_back(order[place].y * view.width + order[place].x);
         if (number == bounces) return paths;
         const std::vector<SurfacePoint> points = surfacePoints(scene, rays, caster.closest(rays), places);
-        rays = raysFrom(points, [&](const SurfacePoint& p) { return bounce(p, view.seed, static_cast<uint32_t>(number + 1)); });
+        rays = raysFrom(points,
+                        [&](const SurfacePoint& p) { return bounce(p, view.seed, static_cast<uint32_t>(number + 1)); });
         places = pixelsOf(points);
     }
 }
 
-std::vector<RaySet> makeBenchRays(RayCaster& caster, const Scene& scene, const BenchView& view) {
+std::vector<RaySet> makeBenchRays(HitSource& caster, const Scene& scene, const BenchView& view) {
     const Bounds bounds = sceneBounds(scene);
     const float aoDistance = 0.1f * glm::length(bounds.hi - bounds.lo);
     const std::vector<shared::RayData> primary = primaryRays(view);

@@ -58,13 +58,13 @@ struct PixelRays {
 };
 
 /// The rays of paths: [0] primary, [i] the i-th diffuse bounce of those that are still in the scene.
-std::vector<PixelRays> makePathRays(RayCaster& caster, const Scene& scene, const BenchView& view, int bounces);
+std::vector<PixelRays> makePathRays(HitSource& caster, const Scene& scene, const BenchView& view, int bounces);
 
 /// The light of a view where the user names none: an eighth of the scene's extents, above its centre, just below its
 /// top.
 BenchLight defaultBenchLight(const Scene& scene);
 
 /// The rays of all kinds. Hits come from `caster`, so the lists are the same for every tracer that is right.
-std::vector<RaySet> makeBenchRays(RayCaster& caster, const Scene& scene, const BenchView& view);
+std::vector<RaySet> makeBenchRays(HitSource& caster, const Scene& scene, const BenchView& view);
 
 }  // namespace raylab

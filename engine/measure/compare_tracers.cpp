@@ -80,7 +80,7 @@ struct Batch {
     std::vector<TrueHit> truths;
 };
 
-Batch compareBatch(RayCaster& a, RayCaster& b, const HitOracle& oracle, const RayKind& kind,
+Batch compareBatch(HitSource& a, HitSource& b, const HitOracle& oracle, const RayKind& kind,
                    std::span<const shared::RayData> rays) {
     Batch batch{kind,
                 rays,
@@ -191,7 +191,7 @@ private:
 
 class Comparer {
 public:
-    Comparer(RayCaster& a, RayCaster& b, const Scene& scene, const ComparePlan& plan, const CompareProgress& progress)
+    Comparer(HitSource& a, HitSource& b, const Scene& scene, const ComparePlan& plan, const CompareProgress& progress)
         : a_(a), b_(b), scene_(scene), plan_(plan), progress_(progress), oracle_(scene), painter_(plan, oracle_) {
         for (const RayKind& kind : kRayKinds) result_.kinds.push_back({kind, {}});
     }
@@ -243,8 +243,8 @@ private:
         }
     }
 
-    RayCaster& a_;
-    RayCaster& b_;
+    HitSource& a_;
+    HitSource& b_;
     const Scene& scene_;
     const ComparePlan& plan_;
     const CompareProgress& progress_;
@@ -272,7 +272,7 @@ DifferenceCounts RayComparison::total() const {
     return sum;
 }
 
-RayComparison compareRays(RayCaster& a, RayCaster& b, const Scene& scene, const ComparePlan& plan,
+RayComparison compareRays(HitSource& a, HitSource& b, const Scene& scene, const ComparePlan& plan,
                           const CompareProgress& progress) {
     return Comparer(a, b, scene, plan, progress).run();
 }

@@ -100,7 +100,7 @@ using CompareProgress = std::function<bool(double fraction)>;
 /// Compares what two casters say of the same rays, which are those of makeBenchRays() by A's hits. From the second seed
 /// on, the camera is turned by a part of a pixel, so that no ray comes twice. Of a round of kinds that is not needed as
 /// a whole, every kind gets its share.
-RayComparison compareRays(RayCaster& a, RayCaster& b, const Scene& scene, const ComparePlan& plan,
+RayComparison compareRays(HitSource& a, HitSource& b, const Scene& scene, const ComparePlan& plan,
                           const CompareProgress& progress);
 
 }  // namespace raylab

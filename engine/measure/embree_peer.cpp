@@ -1,7 +1,6 @@
 #include "engine/measure/embree_peer.h"
 
 #if RAYLAB_EMBREE
-#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -10,75 +9,19 @@
 #include <cmath>
 #include <string>
 
-#include "engine/core/error.h"
 #include "engine/core/stopwatch.h"
+#include "engine/measure/embree_scene.h"
 
 namespace raylab {
 namespace {
 
-struct ReleaseDevice {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
-using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
-
-/// A committed scene of one mesh.
-struct EmbreeScene {
-    DeviceHandle device;
-    SceneHandle scene;
-};
-
-std::shared_ptr<EmbreeScene> makeScene(const WorldTriangles& world, RTCSceneFlags flags) {
-    auto embree = std::make_shared<EmbreeScene>();
-    embree->device.reset(rtcNewDevice(nullptr));
-    if (!embree->device) throw Error("Embree does not start; use --no-peers", ExitCode::internalError);
-    embree->scene.reset(rtcNewScene(embree->device.get()));
-    rtcSetSceneFlags(embree->scene.get(), flags);
-    const RTCGeometry geometry = rtcNewGeometry(embree->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                                             world.positions.size());
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
-                                            world.triangles.size());
-    std::copy(world.positions.begin(), world.positions.end(), static_cast<glm::vec3*>(vertices));
-    std::copy(world.triangles.begin(), world.triangles.end(), static_cast<glm::uvec3*>(indices));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(embree->scene.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(embree->scene.get());
-    return embree;
-}
-
-RTCIntersectContext makeContext(bool coherent) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
-}
-
-bool traceOne(RTCScene scene, const shared::RayData& data, bool anyHit) {
-    RTCIntersectContext context = makeContext(false);
-    RTCRayHit query{};
-    query.ray = {data.origin.x,
-                 data.origin.y,
-                 data.origin.z,
-                 data.tMin,
-                 data.direction.x,
-                 data.direction.y,
-                 data.direction.z,
-                 0.0f,
-                 data.tMax,
-                 ~0u,
-                 0,
-                 0};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+bool traceOne(EmbreeQuery& embree, const shared::RayData& data, bool anyHit) {
+    RTCRayHit query = embreeRay(data, 0);
     if (!anyHit) {
-        rtcIntersect1(scene, &context, &query);
+        embree.closest(query);
         return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     }
-    rtcOccluded1(scene, &context, &query.ray);
+    embree.occluded(query.ray);
     return std::isinf(query.ray.tfar);
 }
 
@@ -99,11 +42,9 @@ void setLane(Ray& ray, size_t lane, const shared::RayData& data) {
 }
 
 /// Packets of `width` rays in their order.
-template <size_t width, class RayHit, class Intersect, class Occluded>
-size_t tracePackets(std::span<const shared::RayData> rays, const RayKind& kind, const Intersect& intersect,
-                    const Occluded& occluded) {
+template <size_t width, class RayHit>
+size_t tracePackets(EmbreeQuery& embree, std::span<const shared::RayData> rays, bool anyHit) {
     size_t hits = 0;
-    RTCIntersectContext context = makeContext(kind.coherent);
     for (size_t first = 0; first < rays.size(); first += width) {
         const size_t count = std::min(width, rays.size() - first);
         RayHit query;
@@ -114,29 +55,22 @@ size_t tracePackets(std::span<const shared::RayData> rays, const RayKind& kind, 
             query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
-        if (kind.anyHit)
-            occluded(valid, &context, query.ray);
+        if (anyHit)
+            embree.occluded(valid, query.ray);
         else
-            intersect(valid, &context, query);
+            embree.closest(valid, query);
         for (size_t lane = 0; lane < count; ++lane)
-            hits += kind.anyHit ? std::isinf(query.ray.tfar[lane]) : query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+            hits += anyHit ? std::isinf(query.ray.tfar[lane]) : query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
     }
     return hits;
 }
 
-size_t traceRange(RTCScene scene, std::span<const shared::RayData> rays, const RayKind& kind, int width) {
-    if (width == 8)
-        return tracePackets<8, RTCRayHit8>(
-            rays, kind,
-            [&](const int* valid, auto* context, auto& query) { rtcIntersect8(valid, scene, context, &query); },
-            [&](const int* valid, auto* context, auto& ray) { rtcOccluded8(valid, scene, context, &ray); });
-    if (width == 16)
-        return tracePackets<16, RTCRayHit16>(
-            rays, kind,
-            [&](const int* valid, auto* context, auto& query) { rtcIntersect16(valid, scene, context, &query); },
-            [&](const int* valid, auto* context, auto& ray) { rtcOccluded16(valid, scene, context, &ray); });
+size_t traceRange(const EmbreeScene& scene, std::span<const shared::RayData> rays, const RayKind& kind, int width) {
+    EmbreeQuery embree(scene, width > 1 && kind.coherent);
+    if (width == 8) return tracePackets<8, RTCRayHit8>(embree, rays, kind.anyHit);
+    if (width == 16) return tracePackets<16, RTCRayHit16>(embree, rays, kind.anyHit);
     size_t hits = 0;
-    for (const shared::RayData& ray : rays) hits += traceOne(scene, ray, kind.anyHit) ? 1 : 0;
+    for (const shared::RayData& ray : rays) hits += traceOne(embree, ray, kind.anyHit) ? 1 : 0;
     return hits;
 }
 
@@ -149,8 +83,7 @@ public:
         std::atomic<size_t> hits{0};
         const Stopwatch watch;
         tbb::parallel_for(tbb::blocked_range<size_t>(0, set.rays.size(), 1024), [&](const auto& range) {
-            hits += traceRange(scene_->scene.get(), std::span(set.rays).subspan(range.begin(), range.size()), set.kind,
-                               width_);
+            hits += traceRange(*scene_, std::span(set.rays).subspan(range.begin(), range.size()), set.kind, width_);
         });
         return {watch.seconds(), hits};
     }
@@ -165,8 +98,8 @@ private:
 }  // namespace
 
 std::vector<std::unique_ptr<BenchSubject>> makeEmbreePeers(const WorldTriangles& world) {
-    const std::shared_ptr<EmbreeScene> standard = makeScene(world, RTC_SCENE_FLAG_NONE);
-    const std::shared_ptr<EmbreeScene> robust = makeScene(world, RTC_SCENE_FLAG_ROBUST);
+    const auto standard = std::make_shared<EmbreeScene>(makeEmbreeScene(world, RTC_SCENE_FLAG_NONE));
+    const auto robust = std::make_shared<EmbreeScene>(makeEmbreeScene(world, RTC_SCENE_FLAG_ROBUST));
     std::vector<std::unique_ptr<BenchSubject>> peers;
     peers.push_back(std::make_unique<EmbreePeer>(standard, 1, "embree1"));
     peers.push_back(std::make_unique<EmbreePeer>(robust, 1, "embree1-robust"));

@@ -26,7 +26,7 @@ public:
         const std::vector<shared::HitData> hits =
             set.kind.anyHit ? caster_.occluded(set.rays) : caster_.closest(set.rays);
         const auto isHit = [](const shared::HitData& hit) { return hit.t >= 0.0f; };
-        return {caster_.deviceSeconds(), static_cast<size_t>(std::count_if(hits.begin(), hits.end(), isHit))};
+        return {caster_.traceSeconds(), static_cast<size_t>(std::count_if(hits.begin(), hits.end(), isHit))};
     }
     std::optional<RayCounters> count(const RaySet& set) override {
         if (set.rays.empty() || caster_.prepared().tracer->info().driverStructures) return std::nullopt;
@@ -121,12 +121,16 @@ std::unique_ptr<BenchSubject> makeDeviceSubject(Device& device, const Scene& sce
 
 WorldTriangles worldTriangles(const Scene& scene) {
     WorldTriangles world;
-    for (const Instance& instance : scene.instances) {
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes[instance.mesh];
         const auto base = static_cast<uint32_t>(world.positions.size());
         for (const glm::vec3& p : mesh.positions)
             world.positions.emplace_back(glm::dmat4(instance.objectToWorld) * glm::dvec4(p, 1.0));
-        for (const glm::uvec3& t : mesh.triangles) world.triangles.push_back(t + base);
+        for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            world.triangles.push_back(mesh.triangles[t] + base);
+            world.ids.emplace_back(i, t);
+        }
     }
     return world;
 }

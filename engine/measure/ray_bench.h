@@ -77,6 +77,7 @@ std::vector<std::unique_ptr<BenchSubject>> makePeerSubjects(const Scene& scene);
 struct WorldTriangles {
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
+    std::vector<glm::uvec2> ids;  ///< of each: instance, primitive
 };
 WorldTriangles worldTriangles(const Scene& scene);
 

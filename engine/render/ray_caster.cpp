@@ -19,20 +19,24 @@ void clearUnwritten(shared::HitData& hit, bool anyHit) {
 }  // namespace
 
 RayCaster::RayCaster(Device& device, const Scene& scene, const RenderSettings& settings, size_t batch)
-    : device_(device), settings_(settings), prepared_(prepareScene(device, scene, settings)), batch_(batch) {
-    std::vector<BindingInfo> bindings = sceneBindings(prepared_);
+    : RayCaster(device, std::make_shared<PreparedScene>(prepareScene(device, scene, settings)), settings, batch) {}
+
+RayCaster::RayCaster(Device& device, std::shared_ptr<PreparedScene> prepared, const RenderSettings& settings,
+                     size_t batch)
+    : device_(device), settings_(settings), prepared_(std::move(prepared)), batch_(batch) {
+    std::vector<BindingInfo> bindings = sceneBindings(*prepared_);
     bindings.push_back(kRays);
     bindings.push_back(kHits);
     bindings.push_back(kCounts);
-    layout_ = KernelLayout(device, bindings, sizeof(shared::RaysPush), prepared_.tracer->stages());
+    layout_ = KernelLayout(device, bindings, sizeof(shared::RaysPush), prepared_->tracer->stages());
     bindAll();
 }
 
 void RayCaster::bindAll() {
-    const shared::FrameParams frame = makeFrame(prepared_, settings_);
+    const shared::FrameParams frame = makeFrame(*prepared_, settings_);
     frameBuffer_ =
         makeDeviceBuffer(device_, "frame", std::as_bytes(std::span(&frame, 1)), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    bindScene(device_, prepared_, layout_);
+    bindScene(device_, *prepared_, layout_);
     bindBuffer(device_, layout_, {shared::kBindFrame, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, frameBuffer_.get(), 0,
                frameBuffer_.sizeBytes());
     kernel_ = makeKernel(false);
@@ -40,12 +44,12 @@ void RayCaster::bindAll() {
 }
 
 void RayCaster::update(const Scene& scene, const SceneChange& change) {
-    updateScene(device_, scene, change, prepared_);
+    updateScene(device_, scene, change, *prepared_);
     bindAll();
 }
 
 Kernel RayCaster::makeKernel(bool counting) const {
-    return makeSceneKernel(device_, prepared_, layout_, KernelKind::rays,
+    return makeSceneKernel(device_, *prepared_, layout_, KernelKind::rays,
                            {{shared::kSpecCount, counting ? 1u : 0u}});
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/render/hit_source.h"
 #include "engine/render/prepared_scene.h"
 
 namespace raylab {
@@ -13,27 +15,28 @@ struct CountedHits {
 };
 
 /// Traces lists of rays through a prepared scene by its tracer: the same traversal text that integrators run on.
-class RayCaster {
+class RayCaster : public HitSource {
 public:
     /// `batch`: rays of one dispatch at most, which bounds its time and its buffers.
     RayCaster(Device& device, const Scene& scene, const RenderSettings& settings, size_t batch = size_t{1} << 16);
+    /// Over a scene that is prepared already, by the same settings. It ends with the next updateScene() of it.
+    RayCaster(Device& device, std::shared_ptr<PreparedScene> prepared, const RenderSettings& settings,
+              size_t batch = size_t{1} << 16);
 
-    /// Closest hits; t is negative where there is none.
-    std::vector<shared::HitData> closest(std::span<const shared::RayData> rays) {
+    std::vector<shared::HitData> closest(std::span<const shared::RayData> rays) override {
         return trace(kernel_, rays, false);
     }
-    /// t is 1 where something lies between tMin and tMax, negative where not.
-    std::vector<shared::HitData> occluded(std::span<const shared::RayData> rays) {
+    std::vector<shared::HitData> occluded(std::span<const shared::RayData> rays) override {
         return trace(kernel_, rays, true);
     }
-    /// Either of the two by a kernel that counts. `deviceSeconds` is not of the usual kernel then.
+    /// The device's time. Of count() it is not that of the usual kernel.
+    double traceSeconds() const override { return deviceSeconds_; }
+    /// Either of the two by a kernel that counts.
     CountedHits count(std::span<const shared::RayData> rays, bool anyHit);
     /// Takes the scene on the device up to a change of it: updateScene(). The caster must have been made with
     /// trees = mesh.
     void update(const Scene& scene, const SceneChange& change);
-    /// The device's time for the last call, seconds.
-    double deviceSeconds() const { return deviceSeconds_; }
-    const PreparedScene& prepared() const { return prepared_; }
+    const PreparedScene& prepared() const { return *prepared_; }
 
 private:
     /// `counts`: as many as rays, or none.
@@ -44,7 +47,7 @@ private:
 
     Device& device_;
     RenderSettings settings_;
-    PreparedScene prepared_;
+    std::shared_ptr<PreparedScene> prepared_;
     Buffer frameBuffer_;
     KernelLayout layout_;
     Kernel kernel_;

@@ -1,4 +1,5 @@
 #include "engine/image/image_io.h"
+#include "engine/measure/embree_caster.h"
 #include "tests/cli/program.h"
 
 namespace raylab {
@@ -63,6 +64,21 @@ TEST_F(CompareTracersCommand, AnyTwoConfigurationsCanBeCompared) {
     EXPECT_EQ(result["settings"]["b"]["builder"], "sweep");
     EXPECT_EQ(result["settings"]["b"]["tracer"], "software");
     EXPECT_FALSE(result.contains("images"));
+}
+
+TEST_F(CompareTracersCommand, EmbreeCanBeASide) {
+    if (!hasEmbree()) GTEST_SKIP() << "built without Embree";
+    ASSERT_EQ(run("courtyard --b embree-robust --only hits,images --json -", " --rays 20000 --spp 2"), 0) << text("err");
+    const Json result = json("out");
+    EXPECT_EQ(result["rays"], 20000);
+    EXPECT_EQ(result["aWrong"], 0);
+    EXPECT_EQ(result["bWrong"], 0) << "leaves cut out of cards by the same rule";
+    EXPECT_EQ(result["sides"]["b"], "embree-robust");
+    EXPECT_FALSE(result["isDefault"]["b"].get<bool>());
+    EXPECT_FALSE(result.contains("images"));
+    EXPECT_NE(result["leftOut"].dump().find("Embree renders none"), std::string::npos) << result["leftOut"];
+    expectRefused("cornell --b embree,layout=bvh2", "takes no settings");
+    expectRefused("quadrics --b embree", "quadrics");
 }
 
 TEST_F(CompareTracersCommand, ImagesThatDifferFail) {

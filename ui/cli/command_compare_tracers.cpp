@@ -7,6 +7,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
+#include "engine/measure/embree_caster.h"
 #include "engine/render/camera.h"
 #include "engine/render/device_defaults.h"
 #include "engine/render/lighting.h"
@@ -30,7 +31,7 @@ constexpr std::array kSteps = {"hits", "images", "time"};
 constexpr std::array kTracingSettings = {"tracer",         "builder",     "layout",         "triangle",
                                          "leaf-size",      "bins",        "traversal-cost", "intersection-cost",
                                          "spatial-budget", "reinsertion", "trees",          "flatten-limit",
-                                         "needs"};
+                                         "needs",          "slab"};
 /// Settings of what is looked at, which cannot differ.
 constexpr std::array kCommonSettings = {"width",         "height",     "camera",      "device",
                                         "validation",    "time-limit", "environment", "environment-scale",
@@ -91,9 +92,20 @@ RenderSettings commonSettings(const CompareTracersOptions& options) {
     return settings;
 }
 
-/// `parts`: NAME or SETTING=VALUE.
+/// Sides that are none of raylab's tracers: they answer for rays, and render nothing.
+constexpr std::array kPeers = {"embree", "embree-robust"};
+
+/// The peer that the first of the parts names; empty where it names none.
+std::string peerOf(const char* flag, const std::vector<std::string>& parts) {
+    const bool isPeer = std::ranges::count(kPeers, parts.front()) > 0;
+    if (isPeer && parts.size() > 1) throw Error(std::string(flag) + ": " + parts.front() + " takes no settings");
+    return isPeer ? parts.front() : "";
+}
+
+/// `parts`: NAME or SETTING=VALUE; a peer leaves the settings as they are.
 RenderSettings sideSettings(const RenderSettings& common, const char* flag, const std::vector<std::string>& parts) {
     RenderSettings settings = common;
+    if (!peerOf(flag, parts).empty()) return settings;
     bool named = false;
     for (const std::string& part : parts) {
         const size_t equals = part.find('=');
@@ -116,13 +128,19 @@ bool tracesByDefault(const RenderSettings& settings, const DeviceDescription& de
     });
 }
 
-CompareSide makeSide(const RenderSettings& settings, const std::vector<std::string>& parts,
+CompareSide makeSide(const char* flag, const RenderSettings& settings, const std::vector<std::string>& parts,
                      const DeviceDescription& device) {
     CompareSide side;
+    side.peer = peerOf(flag, parts);
     for (const std::string& part : parts) side.text += (side.text.empty() ? "" : " ") + part;
     side.settings = resolveForDevice(settings, device);
-    side.isDefault = tracesByDefault(side.settings, device);
+    side.isDefault = side.peer.empty() && tracesByDefault(side.settings, device);
     return side;
+}
+
+std::unique_ptr<HitSource> makeSource(Device& device, const Scene& scene, const CompareSide& side) {
+    if (!side.peer.empty()) return makeEmbreeCaster(scene, side.peer == "embree-robust");
+    return std::make_unique<RayCaster>(device, scene, side.settings);
 }
 
 BenchView viewOf(const Scene& scene, const RenderSettings& settings) {
@@ -145,7 +163,7 @@ void judgeHits(CompareTracersRun& run) {
                                    " of " + std::to_string(total.rays) + " rays");
 }
 
-void compareHits(const CompareTracersOptions& options, const Scene& scene, RayCaster& a, RayCaster& b,
+void compareHits(const CompareTracersOptions& options, const Scene& scene, HitSource& a, HitSource& b,
                  TimeBudget& budget, CompareTracersRun& run) {
     budget.beginStep();
     Stopwatch sinceLine;
@@ -229,28 +247,30 @@ void compareImagesOf(const CompareTracersOptions& options, const Scene& scene, T
 /// One of the casters that are there already, for the benchmark.
 class CasterSubject : public BenchSubject {
 public:
-    CasterSubject(RayCaster& caster, const RenderSettings& settings)
-        : caster_(caster), label_{settings.tracer, settings.layout, settings.triangle, settings.builder, ""} {}
+    CasterSubject(HitSource& caster, const CompareSide& side) : caster_(caster), label_{side.peer, "", "", "", ""} {
+        const RenderSettings& settings = side.settings;
+        if (side.peer.empty()) label_ = {settings.tracer, settings.layout, settings.triangle, settings.builder, ""};
+    }
 
     SubjectLabel label() const override { return label_; }
     TracedRays trace(const RaySet& set) override {
         const auto hits = set.kind.anyHit ? caster_.occluded(set.rays) : caster_.closest(set.rays);
         const auto found = std::ranges::count_if(hits, [](const shared::HitData& hit) { return hit.t >= 0.0f; });
-        return {caster_.deviceSeconds(), static_cast<size_t>(found)};
+        return {caster_.traceSeconds(), static_cast<size_t>(found)};
     }
     std::optional<RayCounters> count(const RaySet&) override { return std::nullopt; }
 
 private:
-    RayCaster& caster_;
+    HitSource& caster_;
     SubjectLabel label_;
 };
 
-void timeKinds(const CompareTracersOptions& options, const Scene& scene, RayCaster& a, RayCaster& b, TimeBudget& budget,
+void timeKinds(const CompareTracersOptions& options, const Scene& scene, HitSource& a, HitSource& b, TimeBudget& budget,
                CompareTracersRun& run) {
     budget.beginStep();
     std::vector<std::unique_ptr<BenchSubject>> subjects;
-    subjects.push_back(std::make_unique<CasterSubject>(a, run.sides[0].settings));
-    subjects.push_back(std::make_unique<CasterSubject>(b, run.sides[1].settings));
+    subjects.push_back(std::make_unique<CasterSubject>(a, run.sides[0]));
+    subjects.push_back(std::make_unique<CasterSubject>(b, run.sides[1]));
     run.times.emplace();
     for (const RaySet& set : makeBenchRays(a, scene, viewOf(scene, run.common))) {
         if (budget.isOver()) {
@@ -271,6 +291,13 @@ void requireFiles(const CompareTracersOptions& options) {
     if (!options.output.empty()) requireWritable(std::filesystem::path(options.output) / "a.png");
 }
 
+/// Images are of raylab's tracers alone; asked for by default, they are left out and said to be.
+bool wantsImages(const CompareTracersOptions& options, CompareTracersRun& run) {
+    const bool peers = !run.sides[0].peer.empty() || !run.sides[1].peer.empty();
+    if (options.wants("images") && peers) run.leftOut.push_back("no images: Embree renders none");
+    return options.wants("images") && !peers;
+}
+
 ExitCode compareTracers(const CompareTracersOptions& options) {
     setQuiet(options.quiet);
     if (!options.heat.empty() && !options.wants("hits")) throw Error("--heat shows first hits; add hits to --only");
@@ -280,21 +307,22 @@ ExitCode compareTracers(const CompareTracersOptions& options) {
     const RenderSettings settingsB = sideSettings(common, "--b", options.b);
     requireFiles(options);
     Device device({common.device, common.validation});
-    CompareTracersRun run{
-        device,
-        options.scene,
-        common,
-        {makeSide(settingsA, options.a, device.description()), makeSide(settingsB, options.b, device.description())}};
+    CompareTracersRun run{device,
+                          options.scene,
+                          common,
+                          {makeSide("--a", settingsA, options.a, device.description()),
+                           makeSide("--b", settingsB, options.b, device.description())}};
     Scene scene = importScene(scenePath(options.scene));
     settleEnvironment(scene, common);
     for (const std::string& warning : scene.warnings) logWarning(warning);
     TimeBudget budget(common.timeLimit, options.only.size());
     {
-        RayCaster a(device, scene, run.sides[0].settings), b(device, scene, run.sides[1].settings);
-        if (options.wants("hits")) compareHits(options, scene, a, b, budget, run);
-        if (options.wants("time")) timeKinds(options, scene, a, b, budget, run);
+        const std::unique_ptr<HitSource> a = makeSource(device, scene, run.sides[0]);
+        const std::unique_ptr<HitSource> b = makeSource(device, scene, run.sides[1]);
+        if (options.wants("hits")) compareHits(options, scene, *a, *b, budget, run);
+        if (options.wants("time")) timeKinds(options, scene, *a, *b, budget, run);
     }
-    if (options.wants("images")) compareImagesOf(options, scene, budget, run);
+    if (wantsImages(options, run)) compareImagesOf(options, scene, budget, run);
     if (!options.json.empty()) writeJson(options.json, compareTracersJson(run));
     if (options.json != "-") {
         printCompareTracers(run);
@@ -311,7 +339,8 @@ void addCompareTracersCommand(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<CompareTracersOptions>(*command);
     command->add_option("scene", options->scene, "glTF, GLB, OBJ, PLY or STL; or the name of a scene of raylab's own")
         ->required();
-    const std::string side = "a tracer, and settings that differ from the common ones: software,layout=bvh2q";
+    const std::string side =
+        "a tracer, and settings that differ from the common ones (software,layout=bvh2q), or embree or embree-robust";
     command->add_option("--a", options->a, side)
         ->type_name("TRACER,SETTING=VALUE")
         ->delimiter(',')

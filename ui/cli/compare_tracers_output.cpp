@@ -203,6 +203,7 @@ nlohmann::ordered_json compareTracersJson(const CompareTracersRun& run) {
               {"scene", run.scene},
               {"device", run.device.description().name},
               {"driver", run.device.description().driver},
+              {"sides", {{"a", run.sides[0].text}, {"b", run.sides[1].text}}},
               {"settings", {{"a", settingsJson(run.sides[0].settings)}, {"b", settingsJson(run.sides[1].settings)}}},
               {"isDefault", {{"a", run.sides[0].isDefault}, {"b", run.sides[1].isDefault}}}};
     if (run.hits) {

@@ -18,6 +18,7 @@ struct CompareSide {
     std::string text;         ///< as the user wrote it
     RenderSettings settings;  ///< resolved
     bool isDefault = false;   ///< traces by the default software configuration
+    std::string peer;  ///< "embree", "embree-robust": it traces by none of the settings; empty: one of raylab's tracers
 };
 
 struct ImageComparison {
