@@ -9,6 +9,7 @@
 #include "assets/generate/mirrors.h"
 #include "assets/generate/quadrics.h"
 #include "assets/generate/statue.h"
+#include "assets/generate/water.h"
 #include "engine/scene/save_gltf.h"
 
 /// raylab-make-assets FOLDER: writes the project's own scenes there. The same bytes on every run.
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
         raylab::saveGltf(raylab::assets::makeQuadrics(), folder / "quadrics.glb");
         raylab::saveGltf(raylab::assets::makeMaterials(), folder / "materials.glb");
         raylab::saveGltf(raylab::assets::makeLights(), folder / "lights.glb");
+        raylab::saveGltf(raylab::assets::makeWater(), folder / "water.glb");
         const raylab::assets::Geometry statue = raylab::assets::makeStatue();
         raylab::saveGltf(raylab::assets::makeCourtyard(statue), folder / "courtyard.glb");
         raylab::saveGltf(raylab::assets::makeMirrors(statue), folder / "mirrors.glb");

@@ -53,6 +53,27 @@ Row metalRow() {
             metal("aluminium", 0.02f), metal("silver", 0.0f)};
 }
 
+/// A lobe each that few materials have.
+Row lobeRow() {
+    Material lacquer = plainMaterial("lacquer", {0.45f, 0.02f, 0.03f}, 0.6f, 0.7f);
+    lacquer.clearcoat = 1.0f;
+    lacquer.clearcoatRoughness = 0.05f;
+    Material velvet = plainMaterial("velvet", {0.05f, 0.03f, 0.16f}, 1.0f);
+    velvet.sheenColor = {0.70f, 0.55f, 0.95f};
+    velvet.sheenRoughness = 0.4f;
+    Material turned = named("turned steel", metal("iron", 0.25f));
+    turned.anisotropy = 0.85f;
+    Material pearl = plainMaterial("pearl", {0.80f, 0.76f, 0.70f}, 0.3f);
+    pearl.ior = 2.0f;
+    pearl.specularColor = {1.0f, 0.45f, 0.75f};
+    Material frosted = glassMaterial("frosted glass", glm::vec3(1.0f));
+    frosted.roughness = 0.4f;
+    Material amber = glassMaterial("amber", glm::vec3(1.0f));
+    amber.attenuationColor = {0.90f, 0.42f, 0.06f};
+    amber.attenuationDistance = 0.4f;
+    return {lacquer, velvet, turned, pearl, frosted, amber};
+}
+
 /// Balls of a row from left to right; row 0 is the lowest and nearest.
 void addRow(Scene& scene, const Row& row, size_t index) {
     const float depth = -kStepDepth * static_cast<float>(index);
@@ -71,7 +92,7 @@ void addStage(Scene& scene) {
     const uint32_t wood = addMaterial(scene, texturedMaterial(scene, "wood", paintWood(), 0.5f));
     const uint32_t paper = addMaterial(scene, plainMaterial("backdrop", {0.34f, 0.36f, 0.39f}, 1.0f));
     constexpr float kHalf = 3.4f;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 4; ++i) {
         const auto step = static_cast<float>(i);
         const float front = 0.5f * kStepDepth - kStepDepth * step;
         Geometry slab =
@@ -139,10 +160,11 @@ Scene makeMaterials() {
     addRow(scene, clearRow(), 0);
     addRow(scene, middleRow(), 1);
     addRow(scene, metalRow(), 2);
+    addRow(scene, lobeRow(), 3);
     addSoftBox(scene, {"key", {-4.2f, 4.6f, 3.2f}, {1.3f, 0.9f}, {9.0f, 8.4f, 7.4f}, {52.0f, 47.0f, 40.0f}});
     addSoftBox(scene, {"fill", {4.6f, 3.2f, 3.4f}, {0.7f, 1.4f}, {3.6f, 4.2f, 5.2f}, {18.0f, 21.0f, 26.0f}});
     addSoftBox(scene, {"top", {0.6f, 5.8f, -2.2f}, {2.2f, 0.5f}, {6.0f, 6.0f, 6.0f}, {22.0f, 22.0f, 22.0f}});
-    addCamera(scene, "balls", {0.0f, 3.0f, 7.6f}, {0.0f, 0.58f, -0.9f}, glm::radians(28.5f));
+    addCamera(scene, "balls", {0.0f, 3.4f, 8.2f}, {0.0f, 0.78f, -1.1f}, glm::radians(29.0f));
     return scene;
 }
 

@@ -4,8 +4,8 @@
 
 namespace raylab::assets {
 
-/// A ball, a quadric, of each preset of f0Presets() and of glass, plaster and rough metals, on three steps in a studio:
-/// what light passes through, opaque dielectrics, metals. Spot lights stand in the middle of the soft boxes that path
+/// A ball, a quadric, of each preset of f0Presets() and of glass, plaster and rough metals, on four steps in a studio:
+/// what light passes through, opaque dielectrics, metals, and a ball of each lobe that few materials have. Spot lights stand in the middle of the soft boxes that path
 /// tracing sees. Metres, Y up.
 Scene makeMaterials();
 

@@ -71,9 +71,10 @@ std::vector<DeviceDescription> listDevices() {
 
 Device::Device(const DeviceOptions& options) {
     try {
-        createInstance(options.validation);
+        keepsPipelines_ = !options.graphics;
+        createInstance(options);
         choosePhysicalDevice(options.selector);
-        createDevice();
+        createDevice(options);
         createCommandObjects();
         loadPipelineCache();
     } catch (...) {
@@ -87,7 +88,7 @@ Device::~Device() { destroy(); }
 void Device::destroy() {
     if (device_ != VK_NULL_HANDLE) {
         // Nothing to be done about a failure here: whatever waits for results has waited in run().
-        if (vkDeviceWaitIdle(device_) == VK_SUCCESS && pipelineCache_) savePipelineCache();
+        if (vkDeviceWaitIdle(device_) == VK_SUCCESS && pipelineCache_ && keepsPipelines_) savePipelineCache();
         pipelineCache_ = {};
         timestamps_ = {};
         fence_ = {};
@@ -101,10 +102,10 @@ void Device::destroy() {
     instance_ = VK_NULL_HANDLE;
 }
 
-void Device::createInstance(bool validation) {
-    instance_ = makeInstance(validation);
-    debugUtils_ = validation;
-    if (validation) messenger_ = makeMessenger(instance_, &validationMessages_);
+void Device::createInstance(const DeviceOptions& options) {
+    instance_ = makeInstance(options.validation, options.instanceExtensions);
+    debugUtils_ = options.validation;
+    if (options.validation) messenger_ = makeMessenger(instance_, &validationMessages_);
 }
 
 void Device::choosePhysicalDevice(const std::string& selector) {
@@ -125,7 +126,7 @@ void Device::choosePhysicalDevice(const std::string& selector) {
     description_ = *best;
 }
 
-void Device::createDevice() {
+void Device::createDevice(const DeviceOptions& options) {
     VkPhysicalDeviceMaintenance3Properties maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &maintenance;
@@ -135,7 +136,11 @@ void Device::createDevice() {
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 
     VkQueueFamilyProperties family{};
-    queueFamily_ = static_cast<uint32_t>(computeQueueFamily(physical_, &family));
+    VkQueueFlags wanted = VK_QUEUE_COMPUTE_BIT;
+    if (options.graphics) wanted |= VK_QUEUE_GRAPHICS_BIT;
+    const int32_t found = findQueueFamily(physical_, wanted, &family);
+    if (found < 0) throw Error(description_.name + " has no queue that draws; choose another --device", ExitCode::noDevice);
+    queueFamily_ = static_cast<uint32_t>(found);
     hasTimestamps_ = family.timestampValidBits > 0;
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -146,9 +151,11 @@ void Device::createDevice() {
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     const RayTracingRequest request(description_.rayTracing);
+    std::vector<const char*> extensions = request.extensions();
+    extensions.insert(extensions.end(), options.deviceExtensions.begin(), options.deviceExtensions.end());
     info.pNext = request.features();
-    info.enabledExtensionCount = static_cast<uint32_t>(request.extensions().size());
-    info.ppEnabledExtensionNames = request.extensions().data();
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     if (description_.rayTracing.hasStructures())

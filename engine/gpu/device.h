@@ -30,6 +30,10 @@ struct DeviceDescription {
 struct DeviceOptions {
     std::string selector;     ///< index or part of the name; empty: the fastest kind that is suitable
     bool validation = false;  ///< core and synchronisation validation; every message counts and is logged
+    // Of a device that draws a window:
+    bool graphics = false;  ///< the queue draws too, and the device keeps no pipelines on disk
+    std::vector<const char*> instanceExtensions;
+    std::vector<const char*> deviceExtensions;
 };
 
 std::string versionText(uint32_t apiVersion);
@@ -38,7 +42,8 @@ std::string versionText(uint32_t apiVersion);
 std::vector<DeviceDescription> listDevices();
 
 /// Instance, device, one queue that computes, and the immediate way to run commands on it. Needs Vulkan 1.2 and neither
-/// an extension nor an optional feature; what there is of hardware traversal is enabled. Not thread-safe.
+/// an extension nor an optional feature beyond those asked for; what there is of hardware traversal is enabled. Not
+/// thread-safe.
 class Device {
 public:
     /// Throws Error (exit code 3) where no device is suitable or the selector matches none.
@@ -48,6 +53,10 @@ public:
     Device& operator=(const Device&) = delete;
 
     VkDevice get() const { return device_; }
+    VkInstance instance() const { return instance_; }
+    VkPhysicalDevice physical() const { return physical_; }
+    VkQueue queue() const { return queue_; }
+    uint32_t queueFamily() const { return queueFamily_; }
     const DeviceDescription& description() const { return description_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     /// Only where description().rayTracing.hasStructures().
@@ -73,9 +82,9 @@ public:
 
 private:
     void destroy();
-    void createInstance(bool validation);
+    void createInstance(const DeviceOptions& options);
     void choosePhysicalDevice(const std::string& selector);
-    void createDevice();
+    void createDevice(const DeviceOptions& options);
     void createCommandObjects();
     void loadPipelineCache();
     void savePipelineCache() const;
@@ -90,6 +99,7 @@ private:
     uint32_t queueFamily_ = 0;
     bool hasTimestamps_ = false;
     bool debugUtils_ = false;
+    bool keepsPipelines_ = true;
     DeviceDescription description_;
     RayTracing rayTracing_;
     VkPhysicalDeviceProperties properties_{};

@@ -51,7 +51,7 @@ const char* kindName(VkPhysicalDeviceType type) {
 
 }  // namespace
 
-VkInstance makeInstance(bool validation) {
+VkInstance makeInstance(bool validation, std::span<const char* const> extensions) {
     uint32_t version = VK_API_VERSION_1_0;
     check(vkEnumerateInstanceVersion(&version), "vkEnumerateInstanceVersion");
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
@@ -64,16 +64,17 @@ VkInstance makeInstance(bool validation) {
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     features.enabledValidationFeatureCount = static_cast<uint32_t>(enabled.size());
     features.pEnabledValidationFeatures = enabled.data();
-    const std::array extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    std::vector<const char*> allExtensions(extensions.begin(), extensions.end());
     if (validation) {
         if (!hasLayer(kValidationLayer))
             throw Error(std::string(kValidationLayer) + " is not installed; install vulkan-validationlayers or leave out --validation");
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
-        info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
-        info.ppEnabledExtensionNames = extensions.data();
+        allExtensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = static_cast<uint32_t>(allExtensions.size());
+    info.ppEnabledExtensionNames = allExtensions.data();
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
     if (result != VK_SUCCESS)
@@ -109,13 +110,13 @@ std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
     return devices;
 }
 
-int32_t computeQueueFamily(VkPhysicalDevice device, VkQueueFamilyProperties* properties) {
+int32_t findQueueFamily(VkPhysicalDevice device, VkQueueFlags wanted, VkQueueFamilyProperties* properties) {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     for (uint32_t i = 0; i < count; ++i) {
-        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
+        if ((families[i].queueFlags & wanted) != wanted) continue;
         if (properties != nullptr) *properties = families[i];
         return static_cast<int32_t>(i);
     }
@@ -145,7 +146,7 @@ DeviceDescription describe(VkPhysicalDevice device, uint32_t index) {
     description.maxTexelBufferElements = base.limits.maxTexelBufferElements;
     if (base.apiVersion < VK_API_VERSION_1_2)
         description.unsuitable = "offers Vulkan " + versionText(base.apiVersion) + ", raylab needs 1.2";
-    else if (computeQueueFamily(device, nullptr) < 0)
+    else if (findQueueFamily(device, VK_QUEUE_COMPUTE_BIT, nullptr) < 0)
         description.unsuitable = "has no queue that computes";
     if (base.apiVersion >= VK_API_VERSION_1_2)
         description.rayTracing = rayTracingOffer(device);

@@ -76,6 +76,16 @@ void writeCamera(const Camera& camera, uint32_t width, uint32_t height, shared::
     frame.tilesPerRow = (width + shared::kTileSize - 1) / shared::kTileSize;
 }
 
+void writeCameraEnd(const Camera& camera, double shutter, shared::FrameParams& frame) {
+    shared::FrameParams end{};
+    writeCamera(camera, frame.width, frame.height, end);
+    frame.endPosition = end.cameraPosition;
+    frame.endRight = end.cameraRight;
+    frame.endUp = end.cameraUp;
+    frame.endForward = end.cameraForward;
+    frame.shutter = static_cast<float>(shutter);
+}
+
 void writeLens(const Camera& camera, double lensRadius, double focusDistance, shared::FrameParams& frame) {
     frame.lensRadius = static_cast<float>(lensRadius);
     frame.focusDistance = focusDistance > 0.0 ? static_cast<float>(focusDistance)

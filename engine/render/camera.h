@@ -15,6 +15,9 @@ Camera chooseCamera(const Scene& scene, const std::string& text);
 /// The fields of the camera and of the image's size (methods.md, "Common").
 void writeCamera(const Camera& camera, uint32_t width, uint32_t height, shared::FrameParams& frame);
 
+/// The camera at the end of its motion, in the same way; `shutter`: part of the motion that is seen, from its start on.
+void writeCameraEnd(const Camera& camera, double shutter, shared::FrameParams& frame);
+
 /// The thin lens: `lensRadius` in scene units, focal length over twice the f-number (0: a pinhole); what lies
 /// `focusDistance` along the axis is sharp. 0: where the camera's target is.
 void writeLens(const Camera& camera, double lensRadius, double focusDistance, shared::FrameParams& frame);

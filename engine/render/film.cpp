@@ -21,9 +21,6 @@ uint32_t chooseRowsPerBand(const Device& device, uint32_t width, uint32_t height
     return static_cast<uint32_t>(std::min<size_t>(rows, whole));
 }
 
-/// Added to the squared mean: the error of pixels darker than 0.1 counts as absolute, as in measure/image_error.h.
-constexpr double kRelativeErrorFloor = 1e-2;
-
 double luminance(const double* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
 }  // namespace

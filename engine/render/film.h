@@ -9,6 +9,10 @@
 
 namespace raylab {
 
+/// Added to the squared mean where an error is relative: that of pixels darker than 0.1 counts as absolute, as in
+/// measure/image_error.h.
+constexpr double kRelativeErrorFloor = 1e-2;
+
 /// The film as the host sees it: estimates in double precision.
 struct FilmImage {
     Bitmap mean;      ///< RGB radiance

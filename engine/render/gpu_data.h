@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/render/alias_table.h"
@@ -24,6 +25,12 @@ struct MaterialTables {
     std::vector<uint32_t> texels;
 };
 
+/// Way to an emissive triangle in the tree over lights, and 1 / area.
+struct LightTrail {
+    uint32_t trail = 0;
+    float inverseArea = 0.0f;
+};
+
 /// Lights, with what next event estimation needs to choose among them.
 struct LightTables {
     std::vector<shared::EmissiveData> emissive;
@@ -33,8 +40,15 @@ struct LightTables {
     uint32_t environmentWidth = 0;
     uint32_t environmentHeight = 0;
     glm::vec3 environmentConstant{0.0f};
+    std::vector<shared::LightNodeData> nodes;  ///< of the tree over lights; empty: none
+    std::vector<LightTrail> trails;            ///< of the lights of a shape, then of the primitives of instances that emit
+    std::vector<uint32_t> firstTrail;          ///< of each instance
+    glm::vec3 gridOrigin{0.0f};                ///< of the nodes' boxes
+    glm::vec3 gridStep{0.0f};
+    uint32_t shapedCount = 0;   ///< of the punctual lights: the first
+    uint32_t sunDiscCount = 0;  ///< of the punctual lights: the last
     float emissiveTotal = 0.0f;  ///< sum of area x weight
-    float shareEmissive = 0.0f;
+    float shareEmissive = 0.0f;  ///< with a tree: of all its lights, and sharePunctual is that of directional lights
     float sharePunctual = 0.0f;
     float shareEnvironment = 0.0f;
 };
@@ -53,11 +67,32 @@ MaterialTables packMaterials(const Scene& scene);
 /// What materials say to the Phong model, one a material; isGiven = 0 where they say nothing.
 std::vector<shared::PhongData> packPhong(const Scene& scene);
 
-/// How next event estimation chooses: in proportion to the power that lights send out; or uniformly: kinds of light,
-/// punctual lights and the area of lamps evenly.
-enum class LightChoice { power, uniform };
+/// The lobes of materials that few have, one entry a material.
+std::vector<shared::LobeData> packLobes(const Scene& scene);
+
+/// How next event estimation chooses: by a tree over lights; in proportion to the power that lights send out; or uniformly:
+/// kinds of light, punctual lights and the area of lamps evenly. A tree wants two lights at least, else the choice is by power.
+enum class LightChoice { automatic, tree, power, uniform };
+
+struct LightConfig {
+    LightChoice choice = LightChoice::automatic;
+    /// For integrators that know punctual lights alone: shapes are points at their centre, and a computed sky's sun is one of
+    /// the lights.
+    bool allPunctual = false;
+};
+
+/// A light as the kernels sample it, without its probability; or with its shape shrunk to a point.
+shared::PunctualData packLight(const Light& light);
+shared::PunctualData packAsPoint(const Light& light);
+
+/// Fills what `lights` holds of a tree over its emissive triangles, whose materials emit the luminance `emitted`, and its
+/// punctual lights but the directional ones, which stand last.
+void packLightTree(const Scene& scene, std::span<const float> emitted, LightTables& lights);
+
+/// Whether packLights() adds the sun of the scene's sky to the punctual lights.
+bool hasSunLight(const Scene& scene, const LightConfig& config);
 
 /// `materials` gets its emission weights. `sceneRadius` weighs lights at infinity against the others.
-LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, LightChoice choice = LightChoice::power);
+LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, const LightConfig& config = {});
 
 }  // namespace raylab

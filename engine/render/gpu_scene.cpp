@@ -1,5 +1,8 @@
 #include "engine/render/gpu_scene.h"
 
+#include <algorithm>
+
+#include "engine/render/directional_albedo.h"
 #include "engine/scene/bounds.h"
 #include "shaders/shared/bindings.h"
 
@@ -21,16 +24,40 @@ constexpr TexelBinding kVertices = kWords(shared::kBindVertices, "vertices");
 constexpr TexelBinding kQuadrics = kWords(shared::kBindQuadrics, "quadrics");
 constexpr TexelBinding kMaterials = kWords(shared::kBindMaterials, "materials");
 constexpr TexelBinding kPhong = kWords(shared::kBindPhong, "Phong materials");
+constexpr TexelBinding kAlbedo = kWords(shared::kBindAlbedo, "directional albedos");
+constexpr TexelBinding kLobes = kWords(shared::kBindLobes, "lobes of materials");
 constexpr TexelBinding kTextures = kWords(shared::kBindTextures, "textures");
 constexpr TexelBinding kTexels = {shared::kBindTexels, "texels", VK_FORMAT_R32_UINT, 4};
 constexpr TexelBinding kEmissive = kWords(shared::kBindEmissive, "emissive triangles");
 constexpr TexelBinding kPunctual = kWords(shared::kBindPunctual, "punctual lights");
+constexpr TexelBinding kLightNodes = kWords(shared::kBindLightNodes, "light tree");
+constexpr TexelBinding kLightTrails = {shared::kBindLightTrails, "light trails", VK_FORMAT_R32G32_UINT, 8};
 constexpr TexelBinding kEnvironment = {shared::kBindEnvironment, "environment", VK_FORMAT_R32G32B32A32_SFLOAT, 16};
 constexpr TexelBinding kAlias = {shared::kBindEnvironmentAlias, "environment alias table", VK_FORMAT_R32G32_UINT, 8};
 
+bool hasSheen(const Material& m) { return m.sheenColor != glm::vec3(0.0f); }
+
+bool hasGgx(const Material& m) {
+    return m.metallic > 0.0f || m.specular > 0.0f || m.clearcoat > 0.0f || m.transmission > 0.0f;
+}
+
+/// The tables that the scene's materials are shaded by, made once, and only where something is: black ones serve kernels
+/// that contain what no material has.
+std::vector<glm::uvec4> albedoTables(const Scene& scene) {
+    if (std::ranges::none_of(scene.materials, hasGgx) && std::ranges::none_of(scene.materials, hasSheen))
+        return std::vector<glm::uvec4>(size_t{shared::kAlbedoCells} * (shared::kAlbedoCells + 1), glm::uvec4(0u));
+    static const std::vector<glm::uvec4> ggx = makeAlbedoTable();
+    std::vector<glm::uvec4> words = ggx;
+    if (std::ranges::any_of(scene.materials, hasSheen)) {
+        static const std::vector<glm::uvec4> sheen = makeSheenTable();
+        words.insert(words.end(), sheen.begin(), sheen.end());
+    }
+    return words;
+}
+
 }  // namespace
 
-GpuScene::GpuScene(Device& device, const Scene& scene, LightChoice lightChoice) {
+GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightConfig) {
     const auto add = [&](const TexelBinding& b, const auto& data) {
         buffers_.push_back(
             {b.binding, makeTexelBuffer(device, b.name, std::as_bytes(std::span(data)), b.format, b.bytes)});
@@ -38,9 +65,10 @@ GpuScene::GpuScene(Device& device, const Scene& scene, LightChoice lightChoice) 
     const Bounds bounds = sceneBounds(scene);
     diagonal_ = glm::length(bounds.hi - bounds.lo);
     MaterialTables materials = packMaterials(scene);
-    lights_ = packLights(scene, 0.5f * diagonal_, materials, lightChoice);
+    lights_ = packLights(scene, 0.5f * diagonal_, materials, lightConfig);
     {
-        const GeometryData geometry = packGeometry(scene);
+        GeometryData geometry = packGeometry(scene);
+        for (size_t i = 0; i < lights_.firstTrail.size(); ++i) geometry.instances[i].firstTrail = lights_.firstTrail[i];
         add(kInstances, geometry.instances);
         add(kTriangles, geometry.triangles);
         add(kVertices, geometry.vertices);
@@ -48,24 +76,32 @@ GpuScene::GpuScene(Device& device, const Scene& scene, LightChoice lightChoice) 
     }
     add(kMaterials, materials.materials);
     add(kPhong, packPhong(scene));
+    add(kAlbedo, albedoTables(scene));
+    add(kLobes, packLobes(scene));
     add(kTextures, materials.textures);
     add(kTexels, materials.texels);
     add(kEmissive, lights_.emissive);
     add(kPunctual, lights_.punctual);
+    add(kLightNodes, lights_.nodes);
+    add(kLightTrails, lights_.trails);
     add(kEnvironment, lights_.environment);
     add(kAlias, lights_.environmentAlias);
     emissiveCount_ = static_cast<uint32_t>(lights_.emissive.size());
     punctualCount_ = static_cast<uint32_t>(lights_.punctual.size());
+    hasLightTree_ = !lights_.nodes.empty();
     lights_.emissive = {};
     lights_.punctual = {};
+    lights_.nodes = {};
+    lights_.trails = {};
     lights_.environment = {};
     lights_.environmentAlias = {};
 }
 
 std::vector<BindingInfo> GpuScene::bindings() {
     std::vector<BindingInfo> infos;
-    for (const TexelBinding& b : {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kPhong, kTextures, kTexels, kEmissive, kPunctual,
-                                  kEnvironment, kAlias})
+    for (const TexelBinding& b :
+         {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kPhong, kAlbedo, kLobes, kTextures, kTexels, kEmissive,
+          kPunctual, kLightNodes, kLightTrails, kEnvironment, kAlias})
         infos.push_back({b.binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
     return infos;
 }
@@ -84,6 +120,10 @@ void GpuScene::writeFrame(shared::FrameParams& frame) const {
     frame.sharePunctual = lights_.sharePunctual;
     frame.shareEnvironment = lights_.shareEnvironment;
     frame.emissiveTotal = lights_.emissiveTotal;
+    frame.shapedCount = lights_.shapedCount;
+    frame.sunDiscCount = lights_.sunDiscCount;
+    frame.lightGridOrigin = lights_.gridOrigin;
+    frame.lightGridStep = lights_.gridStep;
     frame.sceneDiagonal = diagonal_;
 }
 

@@ -12,12 +12,13 @@ namespace raylab {
 /// A scene on the device, apart from what a tracer builds: geometry for shading, materials, textures, lights.
 class GpuScene {
 public:
-    GpuScene(Device& device, const Scene& scene, LightChoice lightChoice);
+    GpuScene(Device& device, const Scene& scene, const LightConfig& lightConfig);
 
     static std::vector<BindingInfo> bindings();
     void bind(const Device& device, const KernelLayout& layout) const;
     /// The fields of lights and of the environment.
     void writeFrame(shared::FrameParams& frame) const;
+    bool hasLightTree() const { return hasLightTree_; }
     size_t memoryBytes() const;
 
 private:
@@ -29,6 +30,7 @@ private:
     LightTables lights_;  ///< arrays emptied after the upload
     uint32_t emissiveCount_ = 0;
     uint32_t punctualCount_ = 0;
+    bool hasLightTree_ = false;
     float diagonal_ = 0.0f;
 };
 

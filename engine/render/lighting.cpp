@@ -25,7 +25,7 @@ SkyDescription skyOf(const Scene& scene, const RenderSettings& settings) {
 }
 
 /// What `auto` means for this scene.
-std::optional<Environment> ownEnvironment(Scene& scene, const RenderSettings& settings) {
+SharedOptional<Environment> ownEnvironment(Scene& scene, const RenderSettings& settings) {
     const bool asksForSun = settings.sunElevation >= 0.0 || settings.sunAzimuth >= 0.0;
     if (scene.sky || asksForSun) return makeSky(skyOf(scene, settings));
     if (scene.environment) return scene.environment;
@@ -34,7 +34,7 @@ std::optional<Environment> ownEnvironment(Scene& scene, const RenderSettings& se
     return makeSky(skyOf(scene, settings));
 }
 
-std::optional<Environment> chosenEnvironment(Scene& scene, const RenderSettings& settings) {
+SharedOptional<Environment> chosenEnvironment(Scene& scene, const RenderSettings& settings) {
     const std::string& choice = settings.environment;
     if (choice == "auto") return ownEnvironment(scene, settings);
     if (choice == "none") return std::nullopt;
@@ -55,9 +55,13 @@ bool hasLight(const Scene& scene) {
 }
 
 void settleEnvironment(Scene& scene, const RenderSettings& settings) {
-    std::optional<Environment> chosen = chosenEnvironment(scene, settings);
+    SharedOptional<Environment> chosen = chosenEnvironment(scene, settings);
     scene.environment = std::move(chosen);
     if (!scene.environment) return;
+    if (scene.environment->parts) {
+        scene.environment->parts->sunIrradiance *= static_cast<float>(settings.environmentScale);
+        scene.environment->parts->skyRadiance *= static_cast<float>(settings.environmentScale);
+    }
     size_t mended = 0;
     for (float& value : scene.environment->radiance.pixels) {
         value *= static_cast<float>(settings.environmentScale);

@@ -4,6 +4,7 @@
 
 #include "engine/image/srgb.h"
 #include "engine/render/gpu_data.h"
+#include "engine/scene/needs.h"
 
 namespace raylab {
 namespace {
@@ -12,6 +13,8 @@ constexpr double kPi = 3.14159265358979323846;
 /// Part of the light samples that goes to the kinds of light evenly, whatever their estimated power: it bounds the
 /// variance where the estimate is wrong for a part of the scene.
 constexpr double kEvenShare = 0.2;
+/// From so many lights on a tree is worth its walk.
+constexpr size_t kManyLights = 32;
 
 double luminance(glm::vec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
@@ -74,9 +77,8 @@ void appendEmissive(const Scene& scene, uint32_t instanceIndex, float weight, fl
     }
 }
 
-double packEmissive(const Scene& scene, MaterialTables& tables, LightChoice choice, LightTables& lights) {
-    const std::vector<float> emitted = weighMaterials(scene, tables, choice);
-    if (emitted.empty()) return 0.0;
+/// Returns the flux of all of them.
+double packEmissive(const Scene& scene, const MaterialTables& tables, std::span<const float> emitted, LightTables& lights) {
     EmissiveSum sum;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const uint32_t material = scene.meshes[scene.instances[i].mesh].material;
@@ -92,38 +94,58 @@ double packEmissive(const Scene& scene, MaterialTables& tables, LightChoice choi
     return sum.flux;
 }
 
+bool isLocal(const Light& light) { return light.kind != LightKind::directional; }
+
 double punctualFlux(const Light& light, double sceneRadius) {
     const double intensity = luminance(light.intensity);
     switch (light.kind) {
-        case LightKind::point: return 4.0 * kPi * intensity;
-        case LightKind::spot: return 2.0 * kPi * (1.0 - std::cos(light.outerConeRadians)) * intensity;
-        case LightKind::directional: return kPi * sceneRadius * sceneRadius * intensity;
+        case LightKind::point:
+        case LightKind::sphere:
+            return 4.0 * kPi * intensity;
+        case LightKind::spot:
+            return 2.0 * kPi * (1.0 - std::cos(light.outerConeRadians)) * intensity;
+        case LightKind::disc:
+        case LightKind::rectangle:
+            return kPi * intensity;
+        case LightKind::directional:
+            return kPi * sceneRadius * sceneRadius * intensity;
     }
     return 0.0;
 }
 
-shared::PunctualData packPunctualLight(const Light& light) {
-    shared::PunctualData data{};
-    data.position = light.position;
-    data.direction = light.direction;
-    data.intensity = light.intensity;
-    data.kind = light.kind == LightKind::point         ? shared::kPunctualPoint
-                : light.kind == LightKind::directional ? shared::kPunctualDirectional
-                                                       : shared::kPunctualSpot;
-    const float cosOuter = std::cos(light.outerConeRadians);
-    data.spotScale = 1.0f / std::max(0.001f, std::cos(light.innerConeRadians) - cosOuter);
-    data.spotOffset = -cosOuter * data.spotScale;
-    return data;
+/// The scene's lights, and the sun of a computed sky where the config asks for it: shapes, other local lights, directional
+/// ones, discs in the sky.
+std::vector<Light> punctualLights(const Scene& scene, const LightConfig& config) {
+    std::vector<Light> all = scene.lights;
+    if (hasSunLight(scene, config)) {
+        const SunAndSky& parts = *scene.environment->parts;
+        Light sun;
+        sun.kind = LightKind::directional;
+        sun.direction = -parts.towardsSun;
+        sun.intensity = parts.sunIrradiance;
+        all.push_back(sun);
+    }
+    const auto rank = [](const Light& light) { return isLocal(light) ? (hasShape(light) ? 0 : 1) : (hasShape(light) ? 3 : 2); };
+    std::ranges::stable_sort(all, {}, rank);
+    return all;
 }
 
-double packPunctual(const Scene& scene, double sceneRadius, LightChoice choice, LightTables& lights) {
+/// Sums of power.
+struct PunctualFlux {
+    double local = 0.0;
+    double directional = 0.0;
+};
+
+/// With a tree, local lights get probability 0: it chooses them.
+PunctualFlux packPunctual(const std::vector<Light>& punctual, double sceneRadius, LightChoice choice, bool allPunctual, LightTables& lights) {
     std::vector<double> weights;
-    double flux = 0.0;
-    for (const Light& light : scene.lights) {
+    PunctualFlux flux;
+    for (const Light& light : punctual) {
         const double ofLight = punctualFlux(light, sceneRadius);
-        flux += ofLight;
-        weights.push_back(choice == LightChoice::power ? ofLight : ofLight > 0.0 ? 1.0 : 0.0);
-        lights.punctual.push_back(packPunctualLight(light));
+        (isLocal(light) ? flux.local : flux.directional) += ofLight;
+        const double weight = choice != LightChoice::uniform ? ofLight : ofLight > 0.0 ? 1.0 : 0.0;
+        weights.push_back(choice == LightChoice::tree && isLocal(light) ? 0.0 : weight);
+        lights.punctual.push_back(allPunctual ? packAsPoint(light) : packLight(light));
     }
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const std::vector<AliasEntry> alias = buildAliasTable(weights);
@@ -134,6 +156,35 @@ double packPunctual(const Scene& scene, double sceneRadius, LightChoice choice, 
             static_cast<float>(total > 0.0 ? weights[i] / total : 1.0 / static_cast<double>(weights.size()));
     }
     return flux;
+}
+
+void countShapes(const std::vector<Light>& punctual, LightTables& lights) {
+    for (const Light& light : punctual)
+        if (hasShape(light)) ++(isLocal(light) ? lights.shapedCount : lights.sunDiscCount);
+}
+
+LightChoice settleChoice(LightChoice choice, size_t localCount) {
+    if (choice == LightChoice::automatic) return localCount >= kManyLights ? LightChoice::tree : LightChoice::power;
+    return choice == LightChoice::tree && localCount < 2 ? LightChoice::power : choice;
+}
+
+/// Probabilities of the kinds of light, from their power.
+struct KindFlux {
+    double flux = 0.0;
+    bool isPresent = false;
+};
+
+void shareSamples(KindFlux emissive, KindFlux punctual, KindFlux environment, LightChoice choice, LightTables& lights) {
+    const double kinds = (emissive.isPresent ? 1.0 : 0.0) + (punctual.isPresent ? 1.0 : 0.0) + (environment.isPresent ? 1.0 : 0.0);
+    const double total = emissive.flux + punctual.flux + environment.flux;
+    const auto share = [&](const KindFlux& kind) {
+        if (!kind.isPresent) return 0.0f;
+        const double byFlux = total > 0.0 && choice != LightChoice::uniform ? kind.flux / total : 1.0 / kinds;
+        return static_cast<float>((1.0 - kEvenShare) * byFlux + kEvenShare / kinds);
+    };
+    lights.shareEmissive = share(emissive);
+    lights.sharePunctual = share(punctual);
+    lights.shareEnvironment = share(environment);
 }
 
 double packEnvironment(const Scene& scene, double sceneRadius, LightTables& lights) {
@@ -165,22 +216,27 @@ double packEnvironment(const Scene& scene, double sceneRadius, LightTables& ligh
 
 }  // namespace
 
-LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, LightChoice choice) {
+bool hasSunLight(const Scene& scene, const LightConfig& config) {
+    return config.allPunctual && scene.environment && scene.environment->parts;
+}
+
+LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, const LightConfig& config) {
     LightTables lights;
-    const double emissive = packEmissive(scene, materials, choice, lights);
-    const double punctual = packPunctual(scene, sceneRadius, choice, lights);
+    const std::vector<float> emitted = weighMaterials(scene, materials, config.choice);
+    const double emissive = emitted.empty() ? 0.0 : packEmissive(scene, materials, emitted, lights);
+    const std::vector<Light> punctual = punctualLights(scene, config);
+    const auto localCount = static_cast<size_t>(std::count_if(punctual.begin(), punctual.end(), isLocal));
+    const LightChoice choice = settleChoice(config.choice, lights.emissive.size() + localCount);
+    const PunctualFlux flux = packPunctual(punctual, sceneRadius, choice, config.allPunctual, lights);
+    if (!config.allPunctual) countShapes(punctual, lights);
     const double environment = packEnvironment(scene, sceneRadius, lights);
-    const double kinds = (lights.emissive.empty() ? 0.0 : 1.0) + (lights.punctual.empty() ? 0.0 : 1.0) +
-                         (lights.environment.empty() ? 0.0 : 1.0);
-    const double total = emissive + punctual + environment;
-    const auto share = [&](double flux, bool present) {
-        if (!present) return 0.0f;
-        const double byFlux = total > 0.0 && choice == LightChoice::power ? flux / total : 1.0 / kinds;
-        return static_cast<float>((1.0 - kEvenShare) * byFlux + kEvenShare / kinds);
-    };
-    lights.shareEmissive = share(emissive, !lights.emissive.empty());
-    lights.sharePunctual = share(punctual, !lights.punctual.empty());
-    lights.shareEnvironment = share(environment, !lights.environment.empty());
+    const KindFlux sky{environment, !lights.environment.empty()};
+    if (choice == LightChoice::tree) {
+        packLightTree(scene, emitted, lights);
+        shareSamples({emissive + flux.local, true}, {flux.directional, localCount < punctual.size()}, sky, choice, lights);
+    } else {
+        shareSamples({emissive, !lights.emissive.empty()}, {flux.local + flux.directional, !punctual.empty()}, sky, choice, lights);
+    }
     return lights;
 }
 

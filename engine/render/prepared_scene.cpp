@@ -14,46 +14,84 @@ namespace {
 
 constexpr float kEndlessRay = 3.0e38f;
 
+/// Integrators that sum over the punctual lights, and take no light from lamps or maps.
+bool takesPunctualLightsAlone(const RenderSettings& settings) {
+    return settings.integrator == "whitted" || settings.integrator == "direct";
+}
+
 void buildWith(std::string_view tracer, Device& device, const Scene& scene, const RenderSettings& settings,
-               PreparedScene& prepared) {
+               const BuildControl& control, PreparedScene& prepared) {
     prepared.tracer = makeTracer(tracer);
     prepared.traceConfig = prepared.tracer->adapt(traceConfig(settings));
     prepared.needs = analyseNeeds(scene, treePlanConfig(prepared.traceConfig));
     prepared.kernelNeeds = settings.needs == "full" ? shared::kNeedAll : prepared.needs.mask;
-    prepared.tracer->build(device, scene, prepared.traceConfig);
+    prepared.tracer->build(device, scene, prepared.traceConfig, control);
 }
 
-void buildTracer(Device& device, const Scene& scene, const RenderSettings& settings, PreparedScene& prepared) {
+void buildTracer(Device& device, const Scene& scene, const RenderSettings& settings, const BuildControl& control,
+                 PreparedScene& prepared) {
     const std::string missing = missingForTracer(settings.tracer, device.description());
     if (!missing.empty())
         throw Error("--tracer " + settings.tracer + ": " + device.description().name + " lacks " + missing +
                         "; use --tracer software, or another device (raylab devices)",
                     ExitCode::noDevice);
     try {
-        buildWith(settings.tracer, device, scene, settings, prepared);
+        buildWith(settings.tracer, device, scene, settings, control, prepared);
     } catch (const Error& error) {
         if (settings.tracer == kFallbackTracer) throw;
         logWarning("--tracer " + settings.tracer + " failed (" + error.what() + "); the software tracer takes over");
-        buildWith(kFallbackTracer, device, scene, settings, prepared);
+        buildWith(kFallbackTracer, device, scene, settings, control, prepared);
     }
 }
 
-/// Whitted's surfaces are lit by punctual lights and by ambient light: lamps and skies are seen, and mirrored, no more.
+LightChoice findLightChoice(const std::string& name) {
+    if (name == "tree") return LightChoice::tree;
+    if (name == "power") return LightChoice::power;
+    return name == "uniform" ? LightChoice::uniform : LightChoice::automatic;
+}
+
+LightConfig lightConfig(const RenderSettings& settings) {
+    LightConfig config;
+    config.allPunctual = takesPunctualLightsAlone(settings);
+    config.choice = config.allPunctual ? LightChoice::power : findLightChoice(settings.lightChoice);
+    return config;
+}
+
+/// Light that diffuse surfaces scatter from everywhere: as asked for, or what a computed sky sends beside its sun.
+glm::vec3 ambientRadiance(const Scene& scene, const RenderSettings& settings) {
+    if (settings.ambient >= 0.0) return glm::vec3(static_cast<float>(settings.ambient));
+    return scene.environment && scene.environment->parts ? scene.environment->parts->skyRadiance : glm::vec3(0.0f);
+}
+
+/// Needs of the scene's kernels beside what analyseNeeds() finds: a sky's sun may be a punctual light.
+uint32_t needsOfLights(const Scene& scene, const LightConfig& config) {
+    return hasSunLight(scene, config) ? shared::kNeedPunctual : 0u;
+}
+
+/// Under `direct` and `whitted` surfaces are lit by punctual lights and by ambient light: lamps and maps are seen, and
+/// mirrored, no more.
 void warnOfDarkness(const Scene& scene, const RenderSettings& settings) {
-    if (settings.integrator == "whitted" && scene.lights.empty() && settings.ambient == 0.0)
-        logWarning(scene.name + " has no point, directional or spot light: surfaces stay dark unless --ambient is above 0");
+    const bool isDark = scene.lights.empty() && !hasSunLight(scene, lightConfig(settings)) &&
+                        ambientRadiance(scene, settings) == glm::vec3(0.0f);
+    if (takesPunctualLightsAlone(settings) && isDark)
+        logWarning(scene.name + " has no point, directional or spot light: under --integrator " + settings.integrator +
+                   " surfaces stay dark unless --ambient is above 0");
 }
 
 }  // namespace
 
-PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings) {
+PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings,
+                           const BuildControl& control) {
     warnOfDarkness(scene, settings);
     PreparedScene prepared;
     prepared.camera = chooseCamera(scene, settings.camera);
-    buildTracer(device, scene, resolveForDevice(settings, device.description()), prepared);
+    prepared.cameraEnd = settings.cameraEnd.empty() ? prepared.camera : chooseCamera(scene, settings.cameraEnd);
+    buildTracer(device, scene, resolveForDevice(settings, device.description()), control, prepared);
     Stopwatch watch;
-    prepared.lightChoice = settings.lightChoice == "uniform" ? LightChoice::uniform : LightChoice::power;
-    prepared.gpu = std::make_unique<GpuScene>(device, scene, prepared.lightChoice);
+    prepared.lightConfig = lightConfig(settings);
+    prepared.ambient = ambientRadiance(scene, settings);
+    prepared.kernelNeeds |= needsOfLights(scene, prepared.lightConfig);
+    prepared.gpu = std::make_unique<GpuScene>(device, scene, prepared.lightConfig);
     prepared.samplerMask = makeSamplerMask(device, settings);
     prepared.packSeconds = watch.seconds();
     return prepared;
@@ -61,9 +99,14 @@ PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSetti
 
 void updateScene(Device& device, const Scene& scene, const SceneChange& change, PreparedScene& prepared) {
     prepared.tracer->update(device, scene, prepared.traceConfig, change);
-    prepared.gpu = std::make_unique<GpuScene>(device, scene, prepared.lightChoice);
+    updateShading(device, scene, prepared);
+}
+
+void updateShading(Device& device, const Scene& scene, PreparedScene& prepared) {
+    prepared.gpu = std::make_unique<GpuScene>(device, scene, prepared.lightConfig);
     prepared.needs = analyseNeeds(scene, treePlanConfig(prepared.traceConfig));
-    prepared.kernelNeeds |= prepared.needs.mask;  // what is there can stay
+    // What is there can stay.
+    prepared.kernelNeeds |= prepared.needs.mask | needsOfLights(scene, prepared.lightConfig);
 }
 
 std::vector<BindingInfo> sceneBindings(const PreparedScene& prepared) {
@@ -83,6 +126,7 @@ void bindScene(const Device& device, const PreparedScene& prepared, const Kernel
 shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSettings& settings) {
     shared::FrameParams frame{};
     writeCamera(prepared.camera, static_cast<uint32_t>(settings.width), static_cast<uint32_t>(settings.height), frame);
+    writeCameraEnd(prepared.cameraEnd, settings.shutter, frame);
     writeLens(prepared.camera, settings.lensRadius, settings.focusDistance, frame);
     writeSampling(settings, frame);
     prepared.gpu->writeFrame(frame);
@@ -94,7 +138,7 @@ shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSetting
     frame.aoDistance = settings.aoDistance > 0.0 ? static_cast<float>(settings.aoDistance) : kEndlessRay;
     frame.aoRays = static_cast<uint32_t>(settings.aoRays);
     frame.aoShare = 1.0f / static_cast<float>(settings.aoRays);
-    frame.ambient = static_cast<float>(settings.ambient);
+    frame.ambient = prepared.ambient;
     frame.threshold = static_cast<float>(settings.threshold);
     return frame;
 }
@@ -102,6 +146,7 @@ shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSetting
 Kernel makeSceneKernel(Device& device, const PreparedScene& prepared, const KernelLayout& layout, KernelKind kind,
                        std::vector<SpecConstant> constants) {
     constants.push_back({shared::kSpecNeeds, prepared.kernelNeeds});
+    constants.push_back({shared::kSpecLightTree, prepared.gpu->hasLightTree() ? 1u : 0u});
     return prepared.tracer->makeKernel(device, layout, kind, std::move(constants));
 }
 

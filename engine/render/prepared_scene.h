@@ -18,20 +18,27 @@ struct PreparedScene {
     std::unique_ptr<GpuScene> gpu;
     std::unique_ptr<Tracer> tracer;
     TexelBuffer samplerMask;  ///< of the blue-noise sampler
-    LightChoice lightChoice = LightChoice::power;
+    LightConfig lightConfig;
     Camera camera;
+    Camera cameraEnd;  ///< of its motion; the same where it stands still
+    glm::vec3 ambient{0.0f};  ///< radiance, of the integrators that have it
     TraceConfig traceConfig;  ///< adapted to the tracer
     double packSeconds = 0.0;  ///< packing and uploading of what is not the tracer's
 };
 
 /// The environment must be settled (settleEnvironment). Throws Error as its parts do, with ExitCode::noDevice where the device
 /// lacks what the tracer needs. A tracer over the driver's structures that fails to build them is replaced by
-/// kFallbackTracer, with a warning.
-PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings);
+/// kFallbackTracer, with a warning. Cancelled as buildBvh() does.
+PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings,
+                           const BuildControl& control = {});
 
 /// Takes what is on the device up to a change of the scene, which must have been prepared with trees = mesh; kernels and
 /// bindings are due again (bindScene, makeFrame). Throws Error as its parts do.
 void updateScene(Device& device, const Scene& scene, const SceneChange& change, PreparedScene& prepared);
+
+/// Takes materials, textures, lights and environment up to a change of them; positions and what alpha tests ask for must
+/// be as they were. Kernels and bindings are due again.
+void updateShading(Device& device, const Scene& scene, PreparedScene& prepared);
 
 /// Bindings that every kernel over a scene has; `prepared` fills them.
 std::vector<BindingInfo> sceneBindings(const PreparedScene& prepared);

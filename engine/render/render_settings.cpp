@@ -29,6 +29,7 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"depth", &S::depth, "events", "scattering events of a path at most", 0, 1e6},
         {"roulette-depth", &S::rouletteDepth, "events", "Russian roulette may end a path after so many", 0, 1e6},
         {"integrator", &S::integrator, "", "method, or what to show of the first hit", 0, 0, integratorNames()},
+        {"energy", &S::energy, "", "path: light scattered more than once between the microfacets of rough surfaces: lost (single) or given back (multiple)", 0, 0, {"single", "multiple"}},
         {"fresnel", &S::fresnel, "", "direct: Schlick's approximation, or the equations of dielectrics and metals", 0, 0, {"schlick", "exact"}},
         {"geometry", &S::geometry, "", "direct: masking and shadowing of microfacets", 0, 0, {"schlick-ggx-direct", "schlick-ggx-ibl", "smith-correlated", "smith-separable"}},
         {"alpha-mapping", &S::alphaMapping, "", "direct: from roughness to the alpha of GGX", 0, 0, {"squared", "linear"}},
@@ -36,7 +37,7 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"mirror-roughness", &S::mirrorRoughness, "", "direct: surfaces less rough than this are mirrors", 0, 1},
         {"ao-rays", &S::aoRays, "rays", "ao: of a sample", 1, 65536},
         {"ao-distance", &S::aoDistance, "scene units", "ao: what is further away does not occlude; 0: everything does", 0, 1e30},
-        {"ambient", &S::ambient, "radiance", "direct, whitted: light from everywhere that diffuse surfaces scatter", 0, 1e9},
+        {"ambient", &S::ambient, "radiance", "direct, whitted: light from everywhere that diffuse surfaces scatter; -1: a computed sky's mean, 0 without one", -1, 1e9},
         {"attenuation", &S::attenuation, "", "whitted: of point and spot lights: none, 1/d, 1/d^2, all 1 at distance d = 1", 0, 0, {"none", "linear", "quadratic"}},
         {"highlight", &S::highlight, "", "whitted: Phong's, or Blinn's with the half vector", 0, 0, {"phong", "blinn-phong"}},
         {"reflection", &S::reflection, "", "whitted: what is mirrored by the Fresnel equations, or by the material's fixed share", 0, 0, {"fresnel", "fixed"}},
@@ -47,6 +48,9 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"builder", &S::builder, "", "how the BVH over triangles is built", 0, 0, builderNames()},
         {"layout", &S::layout, "", "how the BVH is laid out for the kernel; auto: what bench --tune found best on the device", 0, 0, layoutChoices()},
         {"triangle", &S::triangle, "", "test of a ray and a triangle in the software tracers", 0, 0, triangleTestNames()},
+        {"slab", &S::slab, "", "test of a ray and a box in the software tracers: padded for rounding and guarded against 0 times infinity, or neither", 0, 0, {"padded", "plain"}},
+        {"offset", &S::offset, "", "of a ray's origin off the surface that it leaves: by bounds of the rounding errors, by units in the last place, or by offset-epsilon", 0, 0, {"error-bound", "ulp", "epsilon"}},
+        {"offset-epsilon", &S::offsetEpsilon, "scene units", "along the normal, where the offset is epsilon", 0, 1e30},
         {"leaf-size", &S::leafSize, "triangles", "in a leaf of the BVH at most; layouts of blocks: 1", 1, kMaxLeafSize},
         {"bins", &S::bins, "", "of the binned and spatial builders on each axis", 2, kMaxBvhBins},
         {"traversal-cost", &S::traversalCost, "", "of a node, for the SAH", 0, 1e6},
@@ -58,15 +62,18 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"bvh-cache", &S::bvhCache, "", "keep trees on disk, in $XDG_CACHE_HOME/raylab/bvh, and take them from there"},
         {"needs", &S::needs, "", "what the kernel contains: what the scene needs, or everything", 0, 0, {"scene", "full"}},
         {"camera", &S::camera, "", "number or name of a camera of the scene, or px,py,pz,tx,ty,tz,fov: position, target, vertical degrees"},
+        {"camera-end", &S::cameraEnd, "", "the camera, as for --camera, at the end of its motion: motion blur; empty: it stands still"},
+        {"shutter", &S::shutter, "", "part of the camera's motion, from its start, while light is let in", 0, 1},
         {"sampler", &S::sampler, "", "random numbers of a pixel; stratified wants all of --spp, blue-noise few samples", 0, 0, samplerNames()},
         {"filter", &S::filter, "", "how a pixel weighs the image around it", 0, 0, filterNames()},
         {"filter-radius", &S::filterRadius, "pixels", "of the filter; 0: its usual (box 0.5, tent 1, blackman-harris and gaussian 1.5)", 0, 16},
         {"lens-radius", &S::lensRadius, "scene units", "of a thin lens: focal length / (2 x f-number); 0: a pinhole, all is sharp", 0, 1e6},
         {"focus-distance", &S::focusDistance, "scene units", "that is sharp, along the axis of view; 0: where the camera's target is", 0, 1e9},
         {"clamp", &S::clamp, "radiance", "cut samples at this largest component: fewer fireflies, light is lost (and reported); 0: off", 0, 1e30},
-        {"light-choice", &S::lightChoice, "", "which light is sampled: by power, or uniformly (lamps by their area alone)", 0, 0, {"power", "uniform"}},
+        {"light-choice", &S::lightChoice, "", "which light is sampled: by a tree over lights, by power, or uniformly (lamps by their area alone); auto: a tree over many, else by power", 0, 0, {"auto", "tree", "power", "uniform"}},
         {"time-limit", &S::timeLimit, "s", "stop rendering after so long, once every pixel has a sample; 0: no limit", 0, 1e9},
         {"target-error", &S::targetError, "", "stop where the estimated relative error is below; 0: no target", 0, 1e3},
+        {"adaptive", &S::adaptive, "", "more samples where the picture is noisier; --spp is their mean, an eighth of it goes into finding out"},
         {"environment", &S::environment, "", "auto (the scene's, or a sky where nothing else gives light), none, sky, white, or an image file"},
         {"environment-scale", &S::environmentScale, "", "multiplies the environment's radiance", 0, 1e6},
         {"sun-elevation", &S::sunElevation, "degrees", "of a sky's sun above the horizon; -1: the scene's", -1, 90},
@@ -85,6 +92,7 @@ TraceConfig traceConfig(const RenderSettings& settings) {
     config.builder = settings.builder;
     config.layout = settings.layout == kAutoLayout ? kDefaultLayout : settings.layout;
     config.triangle = settings.triangle;
+    config.paddedSlab = settings.slab == "padded";
     config.bvh.maxLeafSize = static_cast<int>(settings.leafSize);
     config.bvh.bins = static_cast<int>(settings.bins);
     config.bvh.traversalCost = static_cast<float>(settings.traversalCost);

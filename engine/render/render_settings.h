@@ -23,6 +23,7 @@ struct RenderSettings {
     int64_t depth = 8;
     int64_t rouletteDepth = 3;
     std::string integrator = "path";
+    std::string energy = "single";
     std::string fresnel = "schlick";
     std::string geometry = "schlick-ggx-direct";
     std::string alphaMapping = "squared";
@@ -30,7 +31,7 @@ struct RenderSettings {
     double mirrorRoughness = 0.05;
     int64_t aoRays = 4;
     double aoDistance = 0.0;
-    double ambient = 0.0;
+    double ambient = -1.0;
     std::string attenuation = "quadratic";
     std::string highlight = "phong";
     std::string reflection = "fresnel";
@@ -41,6 +42,9 @@ struct RenderSettings {
     std::string builder = std::string(kDefaultBuilder);
     std::string layout{kAutoLayout};
     std::string triangle = "watertight";
+    std::string slab = "padded";
+    std::string offset = "error-bound";
+    double offsetEpsilon = 1e-3;
     int64_t leafSize = BvhConfig{}.maxLeafSize;
     int64_t bins = BvhConfig{}.bins;
     double traversalCost = double{BvhConfig{}.traversalCost};
@@ -52,15 +56,18 @@ struct RenderSettings {
     bool bvhCache = false;
     std::string needs = "scene";
     std::string camera = "0";
+    std::string cameraEnd;
+    double shutter = 1.0;
     std::string sampler = "sobol";
     std::string filter = "box";
     double filterRadius = 0.0;
     double lensRadius = 0.0;
     double focusDistance = 0.0;
     double clamp = 0.0;
-    std::string lightChoice = "power";
+    std::string lightChoice = "auto";
     double timeLimit = 0.0;
     double targetError = 0.0;
+    bool adaptive = false;
     std::string environment = "auto";
     double environmentScale = 1.0;
     double sunElevation = -1.0;

@@ -1,8 +1,11 @@
 #include "engine/render/renderer.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "engine/core/error.h"
 #include "engine/core/stopwatch.h"
+#include "engine/render/adaptive.h"
 #include "engine/render/render_constants.h"
 #include "shaders/shared/bindings.h"
 
@@ -12,46 +15,167 @@ namespace {
 /// The smallest piece of work is a block of lanes of one tile. The first dispatch is small, and the next at most so
 /// many times as large: an estimate from cheap tiles (sky) must not send a dispatch of costly ones that holds the
 /// device for long.
-constexpr uint32_t kBlockLanes = 8;
+constexpr uint32_t kBlockLanes = shared::kLanesPerBlock;
 constexpr uint32_t kBlocksPerTile = shared::kWorkgroupSize / kBlockLanes;
 constexpr uint32_t kFirstBlockCount = 1;
 constexpr uint32_t kGrowth = 2;
 constexpr uint32_t kMostSamplesAtOnce = 64;
 constexpr double kMemory = 0.8;
 
+/// Part of the samples that finds out where the others are wanted, and the fewest and the most of them.
+constexpr int64_t kPilotShare = 8;
+constexpr int64_t kLeastPilot = 4;
+constexpr int64_t kMostPilot = 32;
+/// The pilot's random numbers are others than those of the picture.
+constexpr uint32_t kPilotSeed = 0x9e3779b9u;
+
+uint32_t pilotSamples(const RenderSettings& settings) {
+    if (!settings.adaptive) return 0;
+    if (settings.sampler == "stratified")
+        throw Error("--adaptive wants another --sampler: stratified gives all pixels the same number of samples");
+    if (settings.spp < 2 * kLeastPilot)
+        throw Error("--adaptive wants --spp " + std::to_string(2 * kLeastPilot) +
+                    " at least: some find out where the noise is");
+    return static_cast<uint32_t>(std::clamp(settings.spp / kPilotShare, kLeastPilot, kMostPilot));
+}
+
 constexpr BindingInfo kFilmBinding{shared::kBindFilm, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC};
 
 KernelLayout makeLayout(const Device& device, const PreparedScene& prepared) {
     std::vector<BindingInfo> bindings = sceneBindings(prepared);
     bindings.push_back(kFilmBinding);
+    bindings.push_back({shared::kBindSampleRates, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
     return KernelLayout(device, bindings, sizeof(shared::RenderPush), prepared.tracer->stages());
+}
+
+/// All that the kernel is specialised to; the size of the stack last.
+std::vector<SpecConstant> kernelConstants(const PreparedScene& prepared, const RenderSettings& settings) {
+    std::vector<SpecConstant> constants = renderConstants(settings);
+    constants.push_back({shared::kSpecNeeds, prepared.kernelNeeds});
+    constants.push_back({shared::kSpecLightTree, prepared.gpu->hasLightTree() ? 1u : 0u});
+    constants.push_back({shared::kSpecStackSize, prepared.tracer->traceData().stackEntries});
+    return constants;
+}
+
+/// Whether a kernel made with some constants does what others ask for: its stack may be deeper.
+bool covers(const std::vector<SpecConstant>& made, const std::vector<SpecConstant>& wanted) {
+    return std::equal(made.begin(), made.end() - 1, wanted.begin(), wanted.end() - 1) &&
+           made.back().value >= wanted.back().value;
 }
 
 }  // namespace
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings)
+    : Renderer(device, std::make_shared<PreparedScene>(prepareScene(device, scene, settings)), settings) {}
+
+Renderer::Renderer(Device& device, std::shared_ptr<PreparedScene> prepared, const RenderSettings& settings)
     : device_(device),
       settings_(settings),
-      prepared_(prepareScene(device, scene, settings)),
-      frame_(makeFrame(prepared_, settings)),
+      prepared_(std::move(prepared)),
+      frame_(makeFrame(*prepared_, settings)),
       film_(device, frame_.width, frame_.height) {
     Stopwatch watch;
-    frameBuffer_ =
-        makeDeviceBuffer(device, "frame", std::as_bytes(std::span(&frame_, 1)), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    layout_ = makeLayout(device, prepared_);
-    bindScene(device, prepared_, layout_);
-    bindBuffer(device, layout_, {shared::kBindFrame, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, frameBuffer_.get(), 0,
-               frameBuffer_.sizeBytes());
-    bindBuffer(device, layout_, kFilmBinding, film_.buffer(), 0, film_.bandBytes());
-    times_.build = prepared_.tracer->buildSeconds();
-    times_.upload = prepared_.tracer->uploadSeconds() + prepared_.packSeconds + watch.restart();
-    kernel_ = makeSceneKernel(device, prepared_, layout_, KernelKind::render, renderConstants(settings));
+    layout_ = makeLayout(device_, *prepared_);
+    begin();
+    times_.build = prepared_->tracer->buildSeconds();
+    times_.upload = prepared_->tracer->uploadSeconds() + prepared_->packSeconds + watch.restart();
+    makeKernel();
+    times_.compile = watch.restart();
+}
+
+/// With an empty film and the frame parameters as they are.
+void Renderer::begin() {
+    pilotSamples_ = pilotSamples(settings_);
+    if (pilotSamples_ > 0) frame_.seed ^= kPilotSeed;
+    bindScene(device_, *prepared_, layout_);
+    uploadFrame();
+    bindBuffer(device_, layout_, kFilmBinding, film_.buffer(), 0, film_.bandBytes());
     const uint32_t tileRows = (frame_.height + shared::kTileSize - 1) / shared::kTileSize;
     blockCount_ = frame_.tilesPerRow * tileRows * kBlocksPerTile;
-    dispatch(0, 1, 0, 0);  // lavapipe compiles at the first dispatch
-    times_.compile = watch.restart();
+    bindRates(std::vector<float>(settings_.adaptive ? blockCount_ : 1, 1.0f));
+    leastRate_ = 1.0;
+    meanRate_ = 1.0;
+    firstKept_ = 0;
+    nextBlock_ = 0;
+    passFirst_ = 0;
+    passSamples_ = 1;
+    passSeconds_ = 0.0;
+    pixelSamples_ = 0.0;
+    times_.render = 0.0;
     times_.device = 0.0;
     times_.longestDispatch = 0.0;
+}
+
+void Renderer::makeKernel() {
+    kernelConstants_ = kernelConstants(*prepared_, settings_);
+    kernel_ = makeSceneKernel(device_, *prepared_, layout_, KernelKind::render, renderConstants(settings_));
+    dispatch(0, 1, 0, 0);  // lavapipe compiles at the first dispatch
+    lastBlockCount_ = 0;
+    times_.device = 0.0;
+    times_.longestDispatch = 0.0;
+}
+
+void Renderer::startOver(const shared::FrameParams& frame) {
+    const bool sameSize = frame.width == frame_.width && frame.height == frame_.height;
+    frame_ = frame;
+    if (sameSize)
+        film_.clear(device_);
+    else
+        film_ = Film(device_, frame_.width, frame_.height);
+    begin();
+}
+
+void Renderer::restart(const RenderSettings& settings, const Camera& camera) {
+    settings_ = settings;
+    prepared_->camera = camera;
+    startOver(makeFrame(*prepared_, settings_));
+    if (!covers(kernelConstants_, kernelConstants(*prepared_, settings_))) makeKernel();
+}
+
+void Renderer::restart(uint32_t seed, uint32_t spp) {
+    settings_.seed = seed;
+    settings_.spp = spp;
+    startOver(makeFrame(*prepared_, settings_));
+}
+
+void Renderer::update(const Scene& scene, const SceneChange& change) {
+    updateScene(device_, scene, change, *prepared_);
+    startOver(makeFrame(*prepared_, settings_));
+    if (!covers(kernelConstants_, kernelConstants(*prepared_, settings_))) makeKernel();
+}
+
+void Renderer::updateShading(const Scene& scene) {
+    raylab::updateShading(device_, scene, *prepared_);
+    startOver(makeFrame(*prepared_, settings_));
+    if (!covers(kernelConstants_, kernelConstants(*prepared_, settings_))) makeKernel();
+}
+
+void Renderer::uploadFrame() {
+    frameBuffer_ =
+        makeDeviceBuffer(device_, "frame", std::as_bytes(std::span(&frame_, 1)), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    bindBuffer(device_, layout_, {shared::kBindFrame, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, frameBuffer_.get(), 0,
+               frameBuffer_.sizeBytes());
+}
+
+void Renderer::bindRates(std::span<const float> rates) {
+    rates_ = makeTexelBuffer(device_, "sample rates", std::as_bytes(rates), VK_FORMAT_R32_SFLOAT, sizeof(float));
+    bindTexelView(device_, layout_, shared::kBindSampleRates, rates_.view.get());
+}
+
+/// The pilot's samples leave the film, and the picture begins.
+void Renderer::finishPilot() {
+    AdaptiveConfig config;
+    config.samples = static_cast<double>(settings_.spp) - pilotSamples_;
+    config.targetError = settings_.targetError;
+    const std::vector<float> rates = sampleRates(film_.read(device_), config);
+    leastRate_ = static_cast<double>(*std::min_element(rates.begin(), rates.end()));
+    meanRate_ = std::accumulate(rates.begin(), rates.end(), 0.0) / static_cast<double>(rates.size());
+    bindRates(rates);
+    frame_.seed ^= kPilotSeed;
+    uploadFrame();
+    film_.clear(device_);
+    firstKept_ = pilotSamples_;
+    passFirst_ = pilotSamples_;
 }
 
 /// Blocks within one tile, or whole tiles.
@@ -92,7 +216,8 @@ void Renderer::chooseSampleCount() {
     const double perSample = passSeconds_ / passSamples_;
     const double fitting =
         std::clamp(settings_.sliceMs * 1e-3 / std::max(perSample, 1e-9), 1.0, double{kMostSamplesAtOnce});
-    const auto remaining = static_cast<uint32_t>(settings_.spp - passFirst_);
+    const int64_t end = passFirst_ < pilotSamples_ ? int64_t{pilotSamples_} : settings_.spp;
+    const auto remaining = static_cast<uint32_t>(end - passFirst_);
     passSamples_ = std::min({static_cast<uint32_t>(fitting), passSamples_ * kGrowth, std::max(remaining, 1u)});
     passSeconds_ = 0.0;
 }
@@ -109,11 +234,12 @@ bool Renderer::step() {
     secondsPerBlockSample_ =
         std::max(seconds / (static_cast<double>(count) * passSamples_), kMemory * secondsPerBlockSample_);
     lastBlockCount_ = count;
-    pixelSamples_ += uint64_t{count} * kBlockLanes * passSamples_;
+    pixelSamples_ += meanRate_ * count * kBlockLanes * passSamples_;
     nextBlock_ += count;
     if (nextBlock_ == blockCount_) {
         nextBlock_ = 0;
         passFirst_ += passSamples_;
+        if (passFirst_ == pilotSamples_) finishPilot();
         chooseSampleCount();
     }
     return passFirst_ < static_cast<uint64_t>(settings_.spp);

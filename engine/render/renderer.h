@@ -19,47 +19,78 @@ struct RenderTimes {
 };
 
 /// Renders progressively: each step is one dispatch of about settings.sliceMs, so that nothing waits long for an answer.
+/// Adaptive: after a pilot, whose samples are thrown away, every block of pixels gets samples at a rate of its own
+/// (engine/render/adaptive.h).
 class Renderer {
 public:
     /// Builds, uploads and compiles. The scene is not needed afterwards. Throws Error where it does not fit the device.
     Renderer(Device& device, const Scene& scene, const RenderSettings& settings);
+    /// Over a scene that is prepared already, by the same settings; others may use it between two calls.
+    Renderer(Device& device, std::shared_ptr<PreparedScene> prepared, const RenderSettings& settings);
+
+    /// Starts over with another camera, size, seed or method: with all settings that prepareScene() does not read. The
+    /// kernel is made anew only where the settings ask for another.
+    void restart(const RenderSettings& settings, const Camera& camera);
+    /// Starts over with a scene that has changed: updateScene().
+    void update(const Scene& scene, const SceneChange& change);
+    /// Starts over with a scene whose surfaces or lights have changed: updateShading().
+    void updateShading(const Scene& scene);
+    /// Goes on to another number of samples. They are those that a rendering of so many has from the start unless the
+    /// sampler is stratified.
+    void setSampleGoal(int64_t spp) { settings_.spp = spp; }
 
     /// One dispatch. False when all samples are done.
     bool step();
 
+    /// Begins anew with an empty film, as if made with this seed and number of samples; build, upload and compile keep
+    /// their times.
+    void restart(uint32_t seed, uint32_t spp);
+
     /// Samples that every pixel has.
-    uint32_t completeSamples() const { return passFirst_; }
+    uint32_t completeSamples() const { return static_cast<uint32_t>(leastRate_ * (passFirst_ - firstKept_)); }
     /// Samples done, over all samples asked for.
     double fractionDone() const;
-    uint64_t pixelSamples() const { return pixelSamples_; }
+    /// In all pixels, the pilot's too.
+    uint64_t pixelSamples() const { return static_cast<uint64_t>(pixelSamples_); }
 
     FilmImage snapshot() { return film_.read(device_); }
     const RenderTimes& times() const { return times_; }
-    const PreparedScene& prepared() const { return prepared_; }
+    const PreparedScene& prepared() const { return *prepared_; }
     float sceneDiagonal() const { return frame_.sceneDiagonal; }
     size_t filmBytes() const { return film_.memoryBytes(); }
 
 private:
+    void begin();
+    void makeKernel();
+    void startOver(const shared::FrameParams& frame);
     double dispatch(uint32_t firstBlock, uint32_t blockCount, uint32_t firstSample, uint32_t sampleCount);
     uint32_t chooseBlockCount() const;
     void chooseSampleCount();
+    void uploadFrame();
+    void bindRates(std::span<const float> rates);
+    void finishPilot();
 
     Device& device_;
     RenderSettings settings_;
-    PreparedScene prepared_;
+    std::shared_ptr<PreparedScene> prepared_;
     shared::FrameParams frame_{};
     Film film_;
     Buffer frameBuffer_;
+    TexelBuffer rates_;  ///< of blocks; none where it is not adaptive
     KernelLayout layout_;
     Kernel kernel_;
+    std::vector<SpecConstant> kernelConstants_;  ///< that the kernel was made with
     uint32_t blockCount_ = 0;   ///< of the image
     uint32_t nextBlock_ = 0;    ///< of the pass that is under way
     uint32_t passFirst_ = 0;    ///< first sample of it
+    uint32_t pilotSamples_ = 0; ///< that go into finding the rates
+    uint32_t firstKept_ = 0;    ///< sample that the film begins with
+    double leastRate_ = 1.0, meanRate_ = 1.0;
     uint32_t passSamples_ = 1;  ///< samples of it
     uint32_t lastBlockCount_ = 0;
     double secondsPerBlockSample_ = 0.0;
     double passSeconds_ = 0.0;
-    uint64_t pixelSamples_ = 0;
+    double pixelSamples_ = 0.0;
     RenderTimes times_;
 };
 

@@ -22,6 +22,7 @@ struct TraceConfig {
     std::string builder = std::string(kDefaultBuilder);  ///< of builders(); instances are always binned
     std::string layout = "bvh4b";        ///< of layouts(); empty: no tree at all, for who walks none of ours
     std::string triangle = "watertight"; ///< of triangleTests()
+    bool paddedSlab = true;              ///< the slab test allows for rounding
     BvhConfig bvh;                       ///< maxLeafSize is lowered to what the layout holds
     int reinsertionPasses = 0;           ///< of optimise()
     size_t flattenLimit = TreePlanConfig{}.flattenLimit;

@@ -29,8 +29,9 @@ public:
     virtual const TracerInfo& info() const = 0;
     /// `config` with what this backend cannot do replaced by what it does.
     virtual TraceConfig adapt(TraceConfig config) const = 0;
-    /// Builds for `scene` by an adapted config, on the host and on the device. Throws Error where the scene is too large.
-    virtual void build(Device& device, const Scene& scene, const TraceConfig& config) = 0;
+    /// Builds for `scene` by an adapted config, on the host and on the device. Throws Error where the scene is too large,
+    /// and Cancelled as buildBvh() does.
+    virtual void build(Device& device, const Scene& scene, const TraceConfig& config, const BuildControl& control) = 0;
     /// After build() with an adapted config: takes the structures up to what has changed of the scene. bind() is due again.
     /// Throws Error unless each mesh has a tree of its own (Trees::mesh).
     virtual void update(Device& device, const Scene& scene, const TraceConfig& config, const SceneChange& change) = 0;

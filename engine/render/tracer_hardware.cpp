@@ -42,9 +42,10 @@ TraceConfig HardwareTracer::adapt(TraceConfig config) const {
     return config;
 }
 
-void HardwareTracer::build(Device& device, const Scene& scene, const TraceConfig& config) {
+void HardwareTracer::build(Device& device, const Scene& scene, const TraceConfig& config,
+                            const BuildControl& control) {
     Stopwatch watch;
-    data_ = buildTraceData(scene, config);
+    data_ = buildTraceData(scene, config, control);
     sortSlots();
     describeInstances();
     buildSeconds_ = watch.restart();

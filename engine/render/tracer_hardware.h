@@ -18,7 +18,7 @@ public:
     const TracerInfo& info() const override { return info_; }
     TraceConfig adapt(TraceConfig config) const override;
     /// Throws Error also where the driver cannot build the structures.
-    void build(Device& device, const Scene& scene, const TraceConfig& config) override;
+    void build(Device& device, const Scene& scene, const TraceConfig& config, const BuildControl& control) override;
     /// Moved instances: the top-level structure alone is built anew. A mesh that changes gets a bottom-level structure
     /// of its own that can be updated, and from then on is.
     void update(Device& device, const Scene& scene, const TraceConfig& config, const SceneChange& change) override;

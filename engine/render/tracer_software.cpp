@@ -24,12 +24,14 @@ TraceConfig BruteTracer::adapt(TraceConfig config) const {
     return config;
 }
 
-void SoftwareTracer::build(Device& device, const Scene& scene, const TraceConfig& config) {
+void SoftwareTracer::build(Device& device, const Scene& scene, const TraceConfig& config,
+                            const BuildControl& control) {
     Stopwatch watch;
     blocks_ = !config.layout.empty() && findLayout(config.layout).blocks;
     traversal_ = config.layout.empty() ? std::string(info_.name) : config.layout;
     triangleTest_ = findTriangleTest(config.triangle);
-    data_ = buildTraceData(scene, config);
+    slabTest_ = config.paddedSlab ? shared::kSlabPadded : shared::kSlabPlain;
+    data_ = buildTraceData(scene, config, control);
     buildSeconds_ = watch.restart();
     uploadSlots(device);
     uploadNodes(device);
@@ -81,6 +83,7 @@ Kernel SoftwareTracer::makeKernel(Device& device, const KernelLayout& layout, Ke
                                   std::vector<SpecConstant> constants) const {
     constants.push_back({shared::kSpecStackSize, data_.stackEntries});
     constants.push_back({shared::kSpecTriangle, triangleTest_});
+    constants.push_back({shared::kSpecSlab, slabTest_});
     return makeComputeKernel(device, layout, kernelFile(kind, traversal_ + ".comp"), constants);
 }
 

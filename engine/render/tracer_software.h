@@ -10,7 +10,7 @@ public:
     explicit SoftwareTracer(const TracerInfo& info) : info_(info) {}
     const TracerInfo& info() const override { return info_; }
     TraceConfig adapt(TraceConfig config) const override { return config; }
-    void build(Device& device, const Scene& scene, const TraceConfig& config) override;
+    void build(Device& device, const Scene& scene, const TraceConfig& config, const BuildControl& control) override;
     void update(Device& device, const Scene& scene, const TraceConfig& config, const SceneChange& change) override;
     std::vector<BindingInfo> bindings() const override;
     void bind(const Device& device, const KernelLayout& layout) const override;
@@ -31,6 +31,7 @@ private:
     TracerInfo info_;
     std::string traversal_;      ///< names the kernels' files
     uint32_t triangleTest_ = 0;  ///< kTriangle...
+    uint32_t slabTest_ = 0;      ///< kSlab...
     TraceData data_;
     bool blocks_ = false;  ///< triangles stand among the nodes
     TexelBuffer nodes_, triangles_, quadrics_, instances_;

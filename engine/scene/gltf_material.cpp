@@ -7,6 +7,7 @@
 #include "engine/scene/data_uri.h"
 #include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_extras.h"
+#include "engine/scene/gltf_lobes.h"
 #include "engine/scene/resource_path.h"
 
 namespace raylab {
@@ -154,14 +155,11 @@ void readTransmission(Draft& draft, const JsonView& extensions) {
     }
     const JsonView volume = extensions.object("KHR_materials_volume");
     material.thin = !(volume.number("thicknessFactor", 0.0) > 0.0);
-    unread["volume attenuations"] += volume.has("attenuationDistance");
 }
 
 void readSpecular(Draft& draft, const JsonView& extensions) {
     const JsonView specular = extensions.object("KHR_materials_specular");
     draft.material.specular = unit(specular.number("specularFactor", 1.0));
-    draft.context.unread["specular colours and textures of KHR_materials_specular"] +=
-        specular.has("specularTexture") || specular.has("specularColorFactor") || specular.has("specularColorTexture");
 }
 
 glm::vec3 colorWithin(const JsonView& owner, const char* key, glm::vec3 fallback) {
@@ -200,9 +198,12 @@ void makeUnlit(Material& material) {
 }
 
 void noteUnreadExtensions(Draft& draft, const JsonView& extensions) {
-    constexpr const char* kRead[] = {"KHR_materials_emissive_strength",
+    constexpr const char* kRead[] = {"KHR_materials_anisotropy",
+                                     "KHR_materials_clearcoat",
+                                     "KHR_materials_emissive_strength",
                                      "KHR_materials_ior",
                                      "KHR_materials_pbrSpecularGlossiness",
+                                     "KHR_materials_sheen",
                                      "KHR_materials_specular",
                                      "KHR_materials_transmission",
                                      "KHR_materials_unlit",
@@ -230,6 +231,7 @@ Draft readMaterial(Context& context, const JsonView& json, size_t index) {
     readAlphaMode(material, json);
     readTransmission(draft, extensions);
     readSpecular(draft, extensions);
+    readGltfLobes(json, material, context.unread);
     material.phong = readPhong(json);
     noteUnreadExtensions(draft, extensions);
     if (extensions.has("KHR_materials_unlit")) makeUnlit(material);

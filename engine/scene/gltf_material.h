@@ -15,8 +15,8 @@ struct UvUse {
     glm::mat3 transform{1.0f};  ///< KHR_texture_transform, to be baked into the vertices
 };
 
-/// Materials of a glTF document, in its order, with the extensions KHR_materials_{emissive_strength, ior, transmission,
-/// volume, specular, unlit, pbrSpecularGlossiness} and KHR_texture_transform. KHR_materials_unlit becomes a black
+/// Materials of a glTF document, in its order, with the extensions KHR_materials_{anisotropy, clearcoat,
+/// emissive_strength, ior, pbrSpecularGlossiness, sheen, specular, transmission, unlit, volume} and KHR_texture_transform. KHR_materials_unlit becomes a black
 /// surface that emits the base colour: it looks the same under any light (and lights its surroundings, as any lamp).
 /// Appends to scene.materials, scene.warnings and `requests`; result: one entry a material.
 std::vector<UvUse> readGltfMaterials(const GltfDocument& document, TextureRequests& requests, Scene& scene);

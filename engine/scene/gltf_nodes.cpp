@@ -109,12 +109,43 @@ LightKind lightKind(const JsonView& light) {
     light.fail("has the type \"" + type + "\"; KHR_lights_punctual knows point, spot and directional");
 }
 
+float positiveNumber(const JsonView& owner, const char* key) {
+    const auto value = static_cast<float>(numberBetween(owner, key, 0.0, 1e9, 0.0));
+    if (!(value > 0.0f)) owner.fail(std::string("needs a ") + key + " above 0");
+    return value;
+}
+
+/// What extras.raylab says of a light's size. A point becomes a sphere; a spot a disc or a rectangle.
+void readShape(const JsonView& extras, const PlacedNode& placed, Light& light) {
+    constexpr double kQuarterTurn = 1.5707963267948966;
+    if (light.kind == LightKind::directional) {
+        light.angularRadiusRadians = static_cast<float>(numberBetween(extras, "angularRadius", 0.0, kQuarterTurn, 0.0));
+        return;
+    }
+    if (!extras.has("shape")) return;
+    const std::string shape = extras.text("shape", "");
+    if (shape == "sphere" && light.kind == LightKind::point) {
+        light.kind = LightKind::sphere;
+        light.radius = positiveNumber(extras, "radius");
+    } else if (shape == "disc" && light.kind == LightKind::spot) {
+        light.kind = LightKind::disc;
+        light.radius = positiveNumber(extras, "radius");
+    } else if (shape == "rectangle" && light.kind == LightKind::spot) {
+        light.kind = LightKind::rectangle;
+        light.size = {positiveNumber(extras, "width"), positiveNumber(extras, "height")};
+        light.tangent = axisOf(placed.toWorld, 0);
+    } else {
+        extras.fail("has the shape \"" + shape + "\"; a point light may be a sphere, a spot light a disc or a rectangle");
+    }
+}
+
 Light punctualLight(const JsonView& json, const PlacedNode& placed) {
     Light light;
     light.kind = lightKind(json);
     light.position = glm::dvec3(placed.toWorld[3]);
     light.direction = -axisOf(placed.toWorld, 2);
     light.intensity = json.vec3("color", glm::vec3(1.0f)) * static_cast<float>(json.number("intensity", 1.0));
+    if (const std::optional<JsonView> extras = raylabExtras(json)) readShape(*extras, placed, light);
     if (light.kind != LightKind::spot) return light;
     const JsonView spot = json.object("spot");
     light.outerConeRadians = static_cast<float>(spot.number("outerConeAngle", 0.7853981633974483));

@@ -25,7 +25,7 @@ glm::vec3 radiiOf(const JsonView& surface, bool isSphere) {
     const glm::vec3 radii = isSphere ? glm::vec3(static_cast<float>(surface.number("radius", 1.0)))
                                      : surface.vec3("radii", glm::vec3(1.0f));
     for (int axis = 0; axis < 3; ++axis)
-        if (!(radii[axis] >= 1.0f / kLargestCoordinate && radii[axis] <= kLargestCoordinate))
+        if (!(radii[axis] >= 1.0f / kLargestSceneCoordinate && radii[axis] <= kLargestSceneCoordinate))
             surface.fail("needs positive radii (1e-18 to 1e18)");
     return radii;
 }
@@ -37,7 +37,7 @@ void readClip(const JsonView& surface, Quadric& quadric) {
     const std::vector<double> clip = surface.numbers("clip", {-reach, reach});
     quadric.clipLow = static_cast<float>(clip[0]);
     quadric.clipHigh = static_cast<float>(clip[1]);
-    if (std::max(std::abs(quadric.clipLow), std::abs(quadric.clipHigh)) > kLargestCoordinate)
+    if (std::max(std::abs(quadric.clipLow), std::abs(quadric.clipHigh)) > kLargestSceneCoordinate)
         surface.fail("has a clip plane beyond 1e18");
     if (!(quadric.clipLow < quadric.clipHigh)) surface.fail("needs a lower clip plane below the higher one");
     const Bounds left = quadricBounds(quadric);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <sstream>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/scene/bounds.h"
 #include "engine/scene/import_parts.h"
 
 namespace raylab {
@@ -17,19 +19,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtensions[] = {".gltf", ".glb", ".obj", ".ply", ".stl"};
 
-/// Singular is meant relative to the lengths of the columns: a scene at 1e-4 of its size is fine, a flattened one is
-/// not. A float matrix cannot tell less than 1e-7 from 0.
-bool isInvertible(const glm::dmat4& matrix) {
-    double lengths = 1.0;
-    for (int c = 0; c < 3; ++c) lengths *= glm::length(glm::dvec3(matrix[c]));
-    return std::abs(glm::determinant(glm::dmat3(matrix))) > 1e-7 * lengths;
-}
-
 void dropUnusedMeshes(Scene& scene) {
     std::vector<bool> used(scene.meshes.size(), false);
     for (const Instance& instance : scene.instances) used[instance.mesh] = true;
     std::vector<uint32_t> newIndex(scene.meshes.size());
-    std::vector<Mesh> kept;
+    SharedList<Mesh> kept;
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         newIndex[m] = static_cast<uint32_t>(kept.size());
         used[m] = used[m] && !(scene.meshes[m].triangles.empty() && scene.meshes[m].quadrics.empty());
@@ -72,8 +66,24 @@ void reportSingular(const std::vector<std::string>& names, std::vector<std::stri
 void supplyTangents(Scene& scene) {
     tbb::parallel_for(size_t{0}, scene.meshes.size(), [&scene](size_t m) {
         Mesh& mesh = scene.meshes[m];
-        if (scene.materials[mesh.material].normalTexture != kNoTexture) ensureTangents(mesh);
+        const Material& material = scene.materials[mesh.material];
+        if (material.normalTexture != kNoTexture || material.anisotropy > 0.0f) ensureTangents(mesh);
     });
+}
+
+/// From here on a unit in the last place of a coordinate shows: as a part of the scene's diagonal.
+constexpr double kVisibleRounding = 1e-3;
+
+/// Far from the origin, floats lie so far apart that surfaces lose their shape.
+void reportDistance(Scene& scene) {
+    const Bounds bounds = sceneBounds(scene);
+    const glm::dvec3 lo(bounds.lo), hi(bounds.hi), farthest = glm::max(glm::abs(lo), glm::abs(hi));
+    const double largest = std::max({farthest.x, farthest.y, farthest.z}), rounding = largest * 0x1p-23;
+    if (!(rounding > kVisibleRounding * glm::length(hi - lo))) return;
+    std::ostringstream text;
+    text << "the scene lies " << largest << " units from the origin and is " << glm::length(hi - lo)
+         << " units large: positions are rounded to " << rounding << "; move it to the origin";
+    scene.warnings.push_back(text.str());
 }
 
 }  // namespace
@@ -88,8 +98,14 @@ std::string lowerExtension(const fs::path& path) {
 bool isBounded(const glm::dmat4& transform) {
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 3; ++r)
-            if (!(std::abs(transform[c][r]) <= static_cast<double>(kLargestCoordinate))) return false;
+            if (!(std::abs(transform[c][r]) <= static_cast<double>(kLargestSceneCoordinate))) return false;
     return true;
+}
+
+bool isInvertible(const glm::dmat4& matrix) {
+    double lengths = 1.0;
+    for (int c = 0; c < 3; ++c) lengths *= glm::length(glm::dvec3(matrix[c]));
+    return std::abs(glm::determinant(glm::dmat3(matrix))) > 1e-7 * lengths;
 }
 
 void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld) {
@@ -110,6 +126,7 @@ Scene finishScene(SceneDraft&& draft, const fs::path& path) {
     dropUnusedMaterials(scene);
     resolveTextures(draft.requests, scene);
     supplyTangents(scene);
+    reportDistance(scene);
     return scene;
 }
 

@@ -23,7 +23,7 @@ glm::dmat4 toMatrix(const aiMatrix4x4& m) {
 }
 
 void convertMeshes(const aiScene& source, const MeshOptions& options, SceneDraft& draft) {
-    std::vector<Mesh>& meshes = draft.scene.meshes;
+    SharedList<Mesh>& meshes = draft.scene.meshes;
     meshes.resize(source.mNumMeshes);
     std::vector<MeshRepairs> repairs(meshes.size());
     tbb::parallel_for(size_t{0}, meshes.size(), [&](size_t m) {

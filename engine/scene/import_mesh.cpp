@@ -25,8 +25,8 @@ bool isFinite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && 
 
 /// False for NaN too.
 bool isUsable(glm::vec3 p) {
-    return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate &&
-           std::abs(p.z) <= kLargestCoordinate;
+    return std::abs(p.x) <= kLargestSceneCoordinate && std::abs(p.y) <= kLargestSceneCoordinate &&
+           std::abs(p.z) <= kLargestSceneCoordinate;
 }
 
 /// The face's corners where all of them can be used; else empty, and counted.

@@ -29,7 +29,7 @@ struct MeshRepairs {
 };
 
 /// Coordinates beyond this count as non-finite: their squares would overflow a float.
-constexpr float kLargestCoordinate = 1e18f;
+constexpr float kLargestSceneCoordinate = 1e18f;
 
 struct MeshOptions {
     NormalRule normals = NormalRule::keep;

@@ -22,8 +22,12 @@ struct SceneDraft {
 /// ".glb" of "a.GLB".
 std::string lowerExtension(const std::filesystem::path& path);
 
-/// Whether all that the transform holds is finite and at most kLargestCoordinate.
+/// Whether all that the transform holds is finite and at most kLargestSceneCoordinate.
 bool isBounded(const glm::dmat4& transform);
+
+/// Singular is meant relative to the lengths of the columns: a scene at 1e-4 of its size is fine, a flattened one is
+/// not. A float matrix cannot tell less than 1e-7 from 0.
+bool isInvertible(const glm::dmat4& matrix);
 
 /// Adds an instance unless its transform is singular or not finite; finishScene then names it in a warning.
 void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld);

@@ -59,6 +59,12 @@ bool hasTexture(const Material& m) {
 
 bool isLit(glm::vec3 color) { return glm::any(glm::greaterThan(color, glm::vec3(0.0f))); }
 
+bool isSolid(const Material& m) { return m.transmission > 0.0f && !m.thin; }
+
+bool absorbs(const Material& m) {
+    return isSolid(m) && std::isfinite(m.attenuationDistance) && m.attenuationColor != glm::vec3(1.0f);
+}
+
 bool hasPhongGloss(const Material& m) { return m.phong && (isLit(m.phong->specular) || isLit(m.phong->mirror)); }
 
 Need instancingNeed(const TreePlan& plan) {
@@ -92,6 +98,12 @@ Need quadricNeed(const Scene& scene) {
     return {shared::kNeedQuadrics, "quadrics", n > 0, n > 0 ? count(n, "is shown", "are shown") : "none in the scene"};
 }
 
+Need shapeNeed(const Scene& scene) {
+    const auto n = static_cast<size_t>(std::count_if(scene.lights.begin(), scene.lights.end(), hasShape));
+    return {shared::kNeedShapes, "lights of a shape", n > 0,
+            n > 0 ? count(n, "light has", "lights have") + " a size" : "all lights are points or infinitely far away"};
+}
+
 /// Edges shorter than this get lost on a grid over the world.
 double finestEdge(const Scene& scene) {
     const Bounds bounds = sceneBounds(scene);
@@ -100,6 +112,11 @@ double finestEdge(const Scene& scene) {
 }
 
 }  // namespace
+
+bool hasShape(const Light& light) {
+    if (light.kind == LightKind::directional) return light.angularRadiusRadians > 0.0f;
+    return light.kind == LightKind::sphere || light.kind == LightKind::disc || light.kind == LightKind::rectangle;
+}
 
 TreePlan planTrees(const Scene& scene, const TreePlanConfig& config) {
     TreePlan plan;
@@ -144,9 +161,22 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
                      [](const Material& m) { return isLit(m.emission); }),
         {shared::kNeedPunctual, "punctual lights", !scene.lights.empty(),
          scene.lights.empty() ? "none in the scene" : count(scene.lights.size(), "light", "lights")},
+        shapeNeed(scene),
         {shared::kNeedEnvironment, "environment", scene.environment.has_value(),
          scene.environment ? "radiance from infinitely far away" : "black beyond the scene"},
         quadricNeed(scene),
+        materialNeed(shared::kNeedSpecularTint, "specular tint", worn, "of coloured dielectric reflection",
+                     [](const Material& m) { return m.metallic < 1.0f && m.specularColor != glm::vec3(1.0f); }),
+        materialNeed(shared::kNeedClearcoat, "clearcoat", worn, "with a clear coat",
+                     [](const Material& m) { return m.clearcoat > 0.0f; }),
+        materialNeed(shared::kNeedSheen, "sheen", worn, "with sheen", [](const Material& m) { return isLit(m.sheenColor); }),
+        materialNeed(shared::kNeedAnisotropy, "anisotropy", worn, "of anisotropic roughness",
+                     [](const Material& m) { return m.anisotropy > 0.0f; }),
+        materialNeed(shared::kNeedRoughTransmission, "rough transmission", worn, "that is rough and lets light through",
+                     [](const Material& m) { return m.transmission > 0.0f && m.roughness > 0.0f; }),
+        materialNeed(shared::kNeedAbsorption, "absorption", worn, "that light fades in", absorbs),
+        materialNeed(shared::kNeedNesting, "nested dielectrics", worn, "of a volume with a priority",
+                     [](const Material& m) { return isSolid(m) && m.priority > 0; }),
     };
     for (const Need& need : result.needs)
         if (need.needed) result.mask |= need.bit;

@@ -48,6 +48,9 @@ struct TreePlan {
 TreePlan planTrees(const Scene& scene, const TreePlanConfig& config);
 
 /// Walks the scene's data once. `scene.environment` and the lights must be those that will be rendered.
+/// Whether a light has a size, as a shape or as a disc in the sky.
+bool hasShape(const Light& light);
+
 SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config = {});
 
 }  // namespace raylab

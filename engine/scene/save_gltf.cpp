@@ -60,7 +60,7 @@ fs::path companion(const fs::path& path, const std::string& suffix) {
     return path.parent_path() / (path.stem().string() + suffix);
 }
 
-std::vector<Bytes> encodeImages(const std::vector<Texture>& textures) {
+std::vector<Bytes> encodeImages(const SharedList<Texture>& textures) {
     std::vector<Bytes> images(textures.size());
     tbb::parallel_for(size_t{0}, textures.size(), [&](size_t t) {
         images[t] = encodePng8(textures[t].texels, textures[t].width, textures[t].height);

@@ -49,6 +49,32 @@ json pbrJson(const Material& material) {
     return pbr;
 }
 
+bool hasVolume(const Material& m) {
+    return !m.thin || m.attenuationColor != glm::vec3(1.0f) || std::isfinite(m.attenuationDistance);
+}
+
+json volumeJson(const Material& material) {
+    json volume = json::object();
+    // The thickness is for rasterisers: a ray knows where it leaves a volume.
+    if (!material.thin) volume["thicknessFactor"] = 1.0f;
+    if (material.attenuationColor != glm::vec3(1.0f)) volume["attenuationColor"] = toJson(material.attenuationColor);
+    if (std::isfinite(material.attenuationDistance)) volume["attenuationDistance"] = material.attenuationDistance;
+    return volume;
+}
+
+/// Clear coat, sheen and anisotropy.
+void addLobes(const Material& m, json& extensions) {
+    if (m.clearcoat != 0.0f || m.clearcoatRoughness != 0.0f)
+        extensions["KHR_materials_clearcoat"] = {{"clearcoatFactor", m.clearcoat},
+                                                 {"clearcoatRoughnessFactor", m.clearcoatRoughness}};
+    if (m.sheenColor != glm::vec3(0.0f) || m.sheenRoughness != 0.0f)
+        extensions["KHR_materials_sheen"] = {{"sheenColorFactor", toJson(m.sheenColor)},
+                                             {"sheenRoughnessFactor", m.sheenRoughness}};
+    if (m.anisotropy != 0.0f || m.anisotropyRotationRadians != 0.0f)
+        extensions["KHR_materials_anisotropy"] = {{"anisotropyStrength", m.anisotropy},
+                                                  {"anisotropyRotation", m.anisotropyRotationRadians}};
+}
+
 /// Only those that differ from what glTF takes for granted.
 json extensionsJson(const Material& material) {
     json extensions = json::object();
@@ -57,9 +83,11 @@ json extensionsJson(const Material& material) {
     if (material.transmission != 0.0f)
         extensions["KHR_materials_transmission"]["transmissionFactor"] = material.transmission;
     if (material.ior != 1.5f) extensions["KHR_materials_ior"]["ior"] = material.ior;
-    // The thickness is for rasterisers: a ray knows where it leaves a volume.
-    if (!material.thin) extensions["KHR_materials_volume"]["thicknessFactor"] = 1.0f;
+    if (hasVolume(material)) extensions["KHR_materials_volume"] = volumeJson(material);
     if (material.specular != 1.0f) extensions["KHR_materials_specular"]["specularFactor"] = material.specular;
+    if (material.specularColor != glm::vec3(1.0f))
+        extensions["KHR_materials_specular"]["specularColorFactor"] = toJson(material.specularColor);
+    addLobes(material, extensions);
     return extensions;
 }
 
@@ -88,6 +116,7 @@ json materialJson(const Material& material, json& document) {
     const json extensions = extensionsJson(material);
     for (const auto& [name, value] : extensions.items()) useExtension(document, name.c_str());
     if (!extensions.empty()) result["extensions"] = extensions;
+    if (material.priority != 0) result["extras"]["raylab"]["priority"] = material.priority;
     if (material.phong) result["extras"]["raylab"]["phong"] = phongJson(*material.phong);
     return result;
 }

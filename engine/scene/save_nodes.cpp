@@ -103,13 +103,42 @@ void addCamera(const Camera& camera, json& document) {
 const char* lightType(LightKind kind) {
     switch (kind) {
         case LightKind::point:
+        case LightKind::sphere:
             return "point";
         case LightKind::directional:
             return "directional";
         case LightKind::spot:
+        case LightKind::disc:
+        case LightKind::rectangle:
             return "spot";
     }
     return "";
+}
+
+/// Nothing where the light has no size.
+json shapeJson(const Light& light) {
+    switch (light.kind) {
+        case LightKind::sphere:
+            return {{"shape", "sphere"}, {"radius", light.radius}};
+        case LightKind::disc:
+            return {{"shape", "disc"}, {"radius", light.radius}};
+        case LightKind::rectangle:
+            return {{"shape", "rectangle"}, {"width", light.size.x}, {"height", light.size.y}};
+        case LightKind::directional:
+            return light.angularRadiusRadians > 0.0f ? json{{"angularRadius", light.angularRadiusRadians}} : json();
+        case LightKind::point:
+        case LightKind::spot:
+            break;
+    }
+    return {};
+}
+
+/// A spot light's cone. A flat lamp sends into a half space.
+json coneJson(const Light& light) {
+    constexpr double kQuarterTurn = 1.5707963267948966;
+    if (light.kind == LightKind::spot)
+        return {{"innerConeAngle", light.innerConeRadians}, {"outerConeAngle", light.outerConeRadians}};
+    return {{"innerConeAngle", 0.0}, {"outerConeAngle", kQuarterTurn}};
 }
 
 void addLight(const Light& light, json& document) {
@@ -119,11 +148,11 @@ void addLight(const Light& light, json& document) {
                   {"type", lightType(light.kind)},
                   {"color", toJson(light.intensity / strength)},
                   {"intensity", strength}};
-    if (light.kind == LightKind::spot)
-        entry["spot"] = {{"innerConeAngle", light.innerConeRadians}, {"outerConeAngle", light.outerConeRadians}};
+    if (entry["type"] == "spot") entry["spot"] = coneJson(light);
+    if (json shape = shapeJson(light); !shape.is_null()) entry["extras"]["raylab"] = std::move(shape);
     useExtension(document, kExtension);
     const size_t index = appendTo(document["extensions"][kExtension], "lights", std::move(entry));
-    const glm::vec3 z = -light.direction, x = anyOrthogonal(z);
+    const glm::vec3 z = -light.direction, x = light.kind == LightKind::rectangle ? light.tangent : anyOrthogonal(z);
     const glm::mat4 pose(glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f),
                          glm::vec4(light.position, 1.0f));
     json node = {{"name", light.name}, {"matrix", matrixJson(pose)}};

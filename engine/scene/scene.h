@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/core/shared_list.h"
 #include "engine/image/bitmap.h"
 
 namespace raylab {
@@ -65,7 +67,19 @@ struct Material {
     bool thin = true;          ///< transmission without refraction: a sheet, not the boundary of a volume
     float specular = 1.0f;     ///< scales the dielectric reflection; 0 makes the base purely Lambertian
     bool doubleSided = false;  ///< both faces emit; other shading is two-sided always
+    glm::vec3 specularColor{1.0f};  ///< tints the dielectric reflection at normal incidence
+    float clearcoat = 0.0f;         ///< share of the surface below a layer of ior 1.5
+    float clearcoatRoughness = 0.0f;
+    glm::vec3 sheenColor{0.0f};  ///< black: none
+    float sheenRoughness = 0.0f;
+    float anisotropy = 0.0f;                 ///< 0 to 1: the highlight is stretched along the tangent
+    float anisotropyRotationRadians = 0.0f;  ///< of that direction from the tangent, towards the bitangent
+    glm::vec3 attenuationColor{1.0f};        ///< what is left of white light after attenuationDistance inside the volume
+    float attenuationDistance = std::numeric_limits<float>::infinity();  ///< scene units, positive
+    uint32_t priority = 0;  ///< of volumes that overlap: the one of the highest priority is there, the others are not
     std::optional<PhongMaterial> phong;  ///< nothing: derived from the above
+
+    bool operator==(const Material&) const = default;
 };
 
 enum class QuadricKind : uint32_t { ellipsoid = 0, cylinder = 1, cone = 2, hyperboloid = 3, paraboloid = 4 };
@@ -101,6 +115,8 @@ struct Instance {
     std::string name;
     uint32_t mesh = 0;
     glm::mat4 objectToWorld{1.0f};
+
+    bool operator==(const Instance&) const = default;
 };
 
 struct Camera {
@@ -109,25 +125,43 @@ struct Camera {
     glm::vec3 target{0.0f};  ///< any point on the axis of view
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     float fovYRadians = 0.8f;
+
+    bool operator==(const Camera&) const = default;
 };
 
-enum class LightKind : uint32_t { point = 0, directional = 1, spot = 2 };
+enum class LightKind : uint32_t { point = 0, directional = 1, spot = 2, sphere = 3, disc = 4, rectangle = 5 };
 
-/// Punctual light (KHR_lights_punctual).
+/// A light that is no surface of the scene: punctual (KHR_lights_punctual), or of a shape that sends the same radiance
+/// everywhere; discs and rectangles on the side that `direction` points to. Shapes are seen by path tracing, and let rays
+/// pass; integrators that know punctual lights alone take them as points at their centre.
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
     glm::vec3 position{0.0f};
     glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< unit, the way the light travels
-    glm::vec3 intensity{1.0f};  ///< point, spot: radiant intensity; directional: irradiance on a facing plane
+    glm::vec3 intensity{1.0f};  ///< radiant intensity, along the direction; directional: irradiance on a facing plane
     float innerConeRadians = 0.0f;
     float outerConeRadians = 0.7853982f;
+    float radius = 0.0f;               ///< sphere, disc: above 0
+    float angularRadiusRadians = 0.0f; ///< directional: of the disc that the light comes from; 0: from one direction
+    glm::vec2 size{0.0f};              ///< rectangle: width and height, above 0
+    glm::vec3 tangent{1.0f, 0.0f, 0.0f};  ///< rectangle: unit, along its width, orthogonal to the direction
+
+    bool operator==(const Light&) const = default;
+};
+
+/// What a computed sky is made of, for integrators that take no light from a map.
+struct SunAndSky {
+    glm::vec3 towardsSun{0.0f, 1.0f, 0.0f};  ///< unit
+    glm::vec3 sunIrradiance{0.0f};           ///< on a plane that faces the sun
+    glm::vec3 skyRadiance{0.0f};  ///< mean over all directions, without the sun
 };
 
 /// Radiance from infinitely far away, as a latitude-longitude map: row 0 is up (+Y), column 0 looks along -Z... see
 /// shaders/lib/environment.glsl for the one mapping.
 struct Environment {
     Bitmap radiance;  ///< three channels
+    std::optional<SunAndSky> parts{};  ///< of a computed sky, whose map has both in it
 };
 
 /// Sun and clear sky above a scene that has no radiance map.
@@ -136,19 +170,21 @@ struct SkyDescription {
     float sunAzimuthRadians = 0.0f;          ///< clockwise as seen from above: 0 at -Z, pi/2 at +X
     float turbidity = 2.5f;                  ///< 1 (pure air) to 10 (haze)
     float scale = 1.0f;                      ///< multiplies the radiance
+
+    bool operator==(const SkyDescription&) const = default;
 };
 
 /// Everything that a file says, as plain data. Indices are checked by the importer: a Scene never points outside
-/// itself.
+/// itself. Copies share what is large (meshes, texels, the radiance map), so that a copy costs about 100 bytes an instance.
 struct Scene {
     std::string name;
-    std::vector<Texture> textures;
+    SharedList<Texture> textures;
     std::vector<Material> materials;
-    std::vector<Mesh> meshes;
+    SharedList<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
-    std::optional<Environment> environment;
+    SharedOptional<Environment> environment;
     std::optional<SkyDescription> sky;
     std::vector<std::string> warnings;  ///< what was missing or put right, a sentence each
 };

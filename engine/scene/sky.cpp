@@ -131,17 +131,26 @@ void addSun(Bitmap& map, const glm::dvec3& irradiance, const glm::dvec3& sun) {
     for (const auto& [texel, share] : covered) store(map, texel.x, texel.y, irradiance * (share / solidAngle));
 }
 
-glm::dvec3 irradianceOnGround(const Bitmap& map) {
+/// Integral of the first `rows` of the map over solid angle, each row weighed by `weight` of its middle's cosine.
+template <class Weight>
+glm::dvec3 integrate(const Bitmap& map, int rows, Weight&& weight) {
     glm::dvec3 sum(0.0);
-    for (int row = 0; row < map.height / 2; ++row) {
-        const double cosTheta = std::cos(kPi * (row + 0.5) / map.height);
-        const double weight = texelSolidAngle(row, map.width, map.height) * cosTheta;
+    for (int row = 0; row < rows; ++row) {
+        const double share = texelSolidAngle(row, map.width, map.height) * weight(std::cos(kPi * (row + 0.5) / map.height));
         for (int column = 0; column < map.width; ++column) {
             const float* p = map.at(column, row);
-            sum += weight * glm::dvec3(p[0], p[1], p[2]);
+            sum += share * glm::dvec3(p[0], p[1], p[2]);
         }
     }
     return sum;
+}
+
+glm::dvec3 irradianceOnGround(const Bitmap& map) {
+    return integrate(map, map.height / 2, [](double cosine) { return cosine; });
+}
+
+glm::dvec3 meanRadiance(const Bitmap& map) {
+    return integrate(map, map.height, [](double) { return 1.0; }) / (4.0 * kPi);
 }
 
 }  // namespace
@@ -157,10 +166,13 @@ Environment makeSky(const SkyDescription& sky, int width) {
     const glm::dvec3 sun(skyDirection(sky.sunElevationRadians, sky.sunAzimuthRadians));
     const double cosSun = std::max(sun.y, kLowestSunCosine);
     addSky(map, daylight(sky.turbidity, std::acos(cosSun)), sun, sky.scale);
-    addSun(map, static_cast<double>(sky.scale) * sunIrradiance(sky.turbidity, cosSun), sun);
+    const glm::dvec3 irradiance = static_cast<double>(sky.scale) * sunIrradiance(sky.turbidity, cosSun);
+    addSun(map, irradiance, sun);
     const glm::dvec3 ground = irradianceOnGround(map) * (kGroundAlbedo / kPi);
     for (int row = map.height / 2; row < map.height; ++row)
         for (int column = 0; column < map.width; ++column) store(map, column, row, ground);
+    // The sun's disc gives all of its irradiance: its mean over the sphere is that over 4 pi.
+    environment.parts = SunAndSky{sun, irradiance, meanRadiance(map) - irradiance / (4.0 * kPi)};
     return environment;
 }
 

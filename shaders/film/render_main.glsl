@@ -3,11 +3,13 @@
 #include "integrators/integrate.glsl"
 
 layout(set = 0, binding = kBindFilm, std430) buffer FilmBlock { FilmPixel film[]; };
+layout(constant_id = kSpecAdaptive) const uint kAdaptive = 0;
+layout(set = 0, binding = kBindSampleRates) uniform samplerBuffer sampleRates;
 layout(push_constant) uniform PushBlock { RenderPush push; };
 
 // Lanes in blocks of 4 x 2 pixels, so that the eight lanes of a vector see nearly the same part of the scene.
 uvec2 pixelInTile(uint lane) {
-    uint block = lane >> 3;
+    uint block = lane / kLanesPerBlock;
     return uvec2((block & 1u) * 4u + (lane & 3u), (block >> 1) * 2u + ((lane >> 2) & 1u));
 }
 
@@ -19,7 +21,14 @@ void main() {
     if (pixel.x >= frame.width || pixel.y >= frame.height) return;
     uint at = (pixel.y - push.firstRow) * frame.width + pixel.x;
     FilmPixel accumulated = film[at];
-    for (uint i = 0u; i < push.sampleCount; ++i) addSample(accumulated, integrate(pixel, push.firstSample + i));
+    uint first = push.firstSample, end = push.firstSample + push.sampleCount;
+    if (kAdaptive != 0u) {
+        // What the block has at one moment less what it has at the other: rounded the same way, no sample is lost or done twice.
+        float rate = texelFetch(sampleRates, int(tile * (kWorkgroupSize / kLanesPerBlock) + laneIndex() / kLanesPerBlock)).x;
+        first = uint(rate * float(first));
+        end = uint(rate * float(end));
+    }
+    for (uint i = first; i < end; ++i) addSample(accumulated, integrate(pixel, i));
     accumulated.rays += tracedRays;
     film[at] = accumulated;
 }

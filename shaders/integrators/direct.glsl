@@ -12,8 +12,7 @@ const uint kPairDirectTexture = 2u;  // of the first hit; one pair a hit
 vec3 punctualRadiance(Surface s, vec3 wo, uint key) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < frame.punctualCount; ++i) {
-        float probability;
-        LightSample light = punctualLight(s.position, i, probability);
+        LightSample light = punctualLight(s.position, i);
         if (isBlack(light.radiance)) continue;
         vec3 f = evalCookTorrance(s, wo, light.direction);
         if (isBlack(f)) continue;

@@ -57,8 +57,7 @@ float attenuationChange(float distance) {
 vec3 lightOfAll(PhongData p, Surface s, vec3 wo, uint key) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < frame.punctualCount; ++i) {
-        float probability;
-        LightSample light = punctualLight(s.position, i, probability);
+        LightSample light = punctualLight(s.position, i);
         vec3 lit = light.radiance * attenuationChange(light.distance) * phongReflection(p, s, wo, light.direction);
         if (isBlack(lit)) continue;
         sum += lit * lightThatArrives(Ray(offsetOrigin(s, light.direction), 0.0, light.direction, light.distance, key));

@@ -8,26 +8,43 @@
 
 layout(constant_id = kSpecThinLens) const uint kThinLens = 0;
 layout(constant_id = kSpecAntialias) const uint kAntialias = kAntialiasFilter;
+layout(constant_id = kSpecCameraMotion) const uint kCameraMotion = 0;
 
 // Pairs of dimensions that the camera takes: an integrator has the others.
 const uint kPairPixel = 0u;
 const uint kPairLens = 1u;
+const uint kPairTime = 0x80000000u;  // beyond what integrators take
 
-// From the middle of the lens through a point of the image, at distance 1 along the axis.
-vec3 cameraVector(uvec2 pixel, vec2 jitter) {
-    vec2 ndc = (vec2(pixel) + jitter) / vec2(frame.width, frame.height) * 2.0 - 1.0;
-    return frame.cameraForward + ndc.x * frame.cameraRight - ndc.y * frame.cameraUp;
+// Scaled as in FrameParams.
+struct CameraPose {
+    vec3 position;
+    vec3 right;
+    vec3 up;
+    vec3 forward;
+};
+
+// The camera when a sample is taken: its position, and the image at distance 1 before it, move in straight lines.
+CameraPose cameraPose(Sampler random) {
+    CameraPose start = CameraPose(frame.cameraPosition, frame.cameraRight, frame.cameraUp, frame.cameraForward);
+    if (kCameraMotion == 0u) return start;
+    float time = frame.shutter * sample2D(random, kPairTime).x;
+    return CameraPose(mix(start.position, frame.endPosition, time), mix(start.right, frame.endRight, time),
+                      mix(start.up, frame.endUp, time), mix(start.forward, frame.endForward, time));
 }
 
-vec3 cameraDirection(uvec2 pixel, vec2 jitter) { return normalize(cameraVector(pixel, jitter)); }
+// From the middle of the lens through a point of the image, at distance 1 along the axis.
+vec3 cameraVector(CameraPose pose, uvec2 pixel, vec2 jitter) {
+    vec2 ndc = (vec2(pixel) + jitter) / vec2(frame.width, frame.height) * 2.0 - 1.0;
+    return pose.forward + ndc.x * pose.right - ndc.y * pose.up;
+}
 
 // Through a point of the lens to where the plane of focus has the image's point (Cook, Porter, Carpenter, "Distributed Ray
 // Tracing", SIGGRAPH 1984).
-Ray thinLensRay(uvec2 pixel, vec2 jitter, vec2 u) {
+Ray thinLensRay(CameraPose pose, uvec2 pixel, vec2 jitter, vec2 u) {
     vec2 lens = frame.lensRadius * sampleDisc(u);
-    vec3 offset = lens.x * normalize(frame.cameraRight) + lens.y * normalize(frame.cameraUp);
-    vec3 direction = normalize(frame.focusDistance * cameraVector(pixel, jitter) - offset);
-    return Ray(frame.cameraPosition + offset, 0.0, direction, kInfinity, 0u);
+    vec3 offset = lens.x * normalize(pose.right) + lens.y * normalize(pose.up);
+    vec3 direction = normalize(frame.focusDistance * cameraVector(pose, pixel, jitter) - offset);
+    return Ray(pose.position + offset, 0.0, direction, kInfinity, 0u);
 }
 
 // Where in its pixel a sample lies: by the filter, in the middle, or at (+-1/4, +-1/4) of it in turn.
@@ -40,8 +57,9 @@ vec2 pixelPosition(Sampler random) {
 
 Ray cameraRay(uvec2 pixel, Sampler random) {
     vec2 jitter = pixelPosition(random);
-    if (kThinLens != 0u) return thinLensRay(pixel, jitter, sample2D(random, kPairLens));
-    return Ray(frame.cameraPosition, 0.0, cameraDirection(pixel, jitter), kInfinity, 0u);
+    CameraPose pose = cameraPose(random);
+    if (kThinLens != 0u) return thinLensRay(pose, pixel, jitter, sample2D(random, kPairLens));
+    return Ray(pose.position, 0.0, normalize(cameraVector(pose, pixel, jitter)), kInfinity, 0u);
 }
 
 #endif

@@ -20,8 +20,10 @@ layout(constant_id = kSpecAttenuation) const uint kAttenuation = kAttenuationQua
 layout(constant_id = kSpecHighlight) const uint kHighlight = kHighlightPhong;
 layout(constant_id = kSpecReflection) const uint kReflection = kReflectionFresnel;
 layout(constant_id = kSpecBeyond) const uint kBeyond = kBeyondBlack;
+layout(constant_id = kSpecEnergy) const uint kEnergy = kEnergySingle;
 
-bool needs(uint bit) { return (kNeeds & bit) != 0u; }
+// A macro, not a function: a constant in the file already, by which whole functions go before any is inlined.
+#define needs(bits) ((kNeeds & (bits)) != 0u)
 
 layout(set = 0, binding = kBindFrame, std140) uniform FrameBlock { FrameParams frame; };
 
@@ -35,6 +37,8 @@ layout(set = 0, binding = kBindTraceQuadrics) uniform usamplerBuffer traceQuadri
 layout(set = 0, binding = kBindVertices) uniform usamplerBuffer vertexWords;
 layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer materialWords;
 layout(set = 0, binding = kBindPhong) uniform usamplerBuffer phongWords;
+layout(set = 0, binding = kBindAlbedo) uniform usamplerBuffer albedoWords;
+layout(set = 0, binding = kBindLobes) uniform usamplerBuffer lobeWords;
 layout(set = 0, binding = kBindTextures) uniform usamplerBuffer textureWords;
 layout(set = 0, binding = kBindTexels) uniform usamplerBuffer texels;
 layout(set = 0, binding = kBindEmissive) uniform usamplerBuffer emissiveWords;
@@ -67,6 +71,20 @@ MaterialData loadMaterial(uint material) {
     vec4 df = uintBitsToFloat(d);
     uvec4 e = needs(kNeedTextures) ? texelFetch(materialWords, at + 4) : uvec4(kNoTextureIndex);
     return MaterialData(a.xyz, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, df.x, df.y, df.z, d.w, e.x, e.y, e.z, e.w);
+}
+
+// What the kernel does not need is as if the material did not have it.
+LobeData loadLobes(uint material) {
+    int at = int(material * kWordsLobe);
+    vec4 a = vec4(1.0, 1.0, 1.0, 0.0), b = vec4(0.0);
+    vec4 c = vec4(0.0);
+    uvec4 d = uvec4(0u);
+    if (needs(kNeedSpecularTint | kNeedClearcoat)) a = uintBitsToFloat(texelFetch(lobeWords, at));
+    if (needs(kNeedSheen)) b = uintBitsToFloat(texelFetch(lobeWords, at + 1));
+    if (needs(kNeedAbsorption | kNeedClearcoat)) c = uintBitsToFloat(texelFetch(lobeWords, at + 2));
+    if (needs(kNeedAnisotropy | kNeedNesting)) d = texelFetch(lobeWords, at + 3);
+    vec3 df = uintBitsToFloat(d.xyz);
+    return LobeData(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, df.x, df.y, df.z, d.w);
 }
 
 PhongData loadPhong(uint material) {

@@ -8,6 +8,9 @@
 #include "lib/texture.glsl"
 #include "trace/common.glsl"
 
+layout(constant_id = kSpecOffset) const uint kOffset = 0;
+layout(constant_id = kSpecOffsetEpsilon) const float kOffsetEpsilonLength = 1e-3;
+
 // Width of the ray for texture filtering: grows by `spread` for each unit of distance.
 struct RayCone {
     float width;
@@ -33,7 +36,14 @@ struct Surface {
     vec3 baseTexture;  // the colour that baseColor is multiplied by
     uint material;
     float emissionWeight;
+    float eta;        // index on the far side over index on wo's side
+    LobeData lobes;
+    vec3 tangent;        // unit, of s.normal: along it the anisotropic roughness lies; kNeedAnisotropy alone
+    float alphaTangent;  // GGX along it, alpha across
 };
+
+// Below this GGX alpha a lobe is narrower than floats resolve: it is a mirror.
+const float kSmallestAlpha = 1.0e-3;
 
 const float kMachineEpsilon = 5.9604644775390625e-8;
 float roundingBound(int operations) {
@@ -112,6 +122,34 @@ vec2 vertexUv(uint vertex) { return uintBitsToFloat(texelFetch(vertexWords, int(
 
 vec4 vertexTangent(uint vertex) { return decodeTangent(texelFetch(vertexWords, int(vertex * kWordsVertex + 1u)).z); }
 
+// How far rounding goes on a triangle, and where a hit on it has to be because of that.
+struct Roundings {
+    float distance;  // bound of the error of the distance at which it, or a coplanar neighbour, would be hit again
+    vec3 inset;      // to add to the position
+};
+
+// The test's t is a mean of the vertices' distances by edge functions, whose products round in proportion to the square of the
+// length: over the area, that is the length over the height. No further than the triangle is high.
+// A hit beside an edge may be rounded to a place beyond it, behind the wall that stands there: it is moved inwards, in the
+// plane, until it is as far from each edge as the position and the wall's distance may be wrong, or a quarter of the
+// triangle's height above it where that is less. In units of the longest edge, whose square may overflow.
+Roundings triangleRoundings(vec3 edge1, vec3 edge2, vec2 b, vec3 positionError) {
+    float longest = max(maxComponent(abs(edge1)), maxComponent(abs(edge2)));
+    float bound = roundingBound(4);
+    edge1 /= longest;
+    edge2 /= longest;
+    vec3 edge0 = edge2 - edge1, across = cross(edge1, edge2);
+    float twiceArea = length(across);
+    Roundings r;
+    r.distance = longest * max(bound, min(bound / twiceArea, twiceArea));
+    vec3 lengths = vec3(length(edge0), length(edge2), length(edge1));
+    vec3 heights = twiceArea / lengths;
+    vec3 room = min(vec3(bound + maxComponent(positionError) / longest), 0.25 * heights);
+    vec3 shift = longest * max(room - vec3(1.0 - b.x - b.y, b) * heights, 0.0) / (twiceArea * lengths);
+    r.inset = shift.x * cross(across, edge0) - shift.y * cross(across, edge2) + shift.z * cross(across, edge1);
+    return r;
+}
+
 Patch trianglePatch(Hit hit, InstanceData data) {
     uvec4 i = texelFetch(triangleWords, int(data.firstPrimitive + hit.primitive));
     uvec4 v0 = texelFetch(vertexWords, int(i.x * kWordsVertex));
@@ -131,7 +169,9 @@ Patch trianglePatch(Hit hit, InstanceData data) {
         p.edge1 = transformVector(data, p.edge1);
         p.edge2 = transformVector(data, p.edge2);
     }
-    p.distanceError = roundingBound(4) * max(maxComponent(abs(p.edge1)), maxComponent(abs(p.edge2)));
+    Roundings roundings = triangleRoundings(p.edge1, p.edge2, b, p.positionError);
+    p.distanceError = roundings.distance;
+    if (kOffset == kOffsetErrorBound) p.position += roundings.inset;
     p.normal = normalize(n);
     p.uv = p.uvEdge1 = p.uvEdge2 = vec2(0.0);
     if (needs(kNeedTextures)) {
@@ -147,7 +187,7 @@ Patch trianglePatch(Hit hit, InstanceData data) {
         if (dot(interpolated, interpolated) > 0.0) p.shading = normalize(interpolated);
     }
     p.tangent = vec4(0.0);
-    if (needs(kNeedNormalMaps)) {
+    if (needs(kNeedNormalMaps | kNeedAnisotropy)) {
         vec4 t0 = vertexTangent(i.x);
         vec3 t1 = vertexTangent(i.y).xyz, t2 = vertexTangent(i.z).xyz;
         p.tangent = vec4(t0.xyz + b.x * (t1 - t0.xyz) + b.y * (t2 - t0.xyz), t0.w);
@@ -208,19 +248,37 @@ Patch quadricPatch(Ray ray, Hit hit, InstanceData data) {
     return p;
 }
 
+// Along u and across it, in the plane whose normal is n; false where the mesh says nothing.
+bool tangentFrame(InstanceData data, vec4 along, vec3 n, out vec3 tangent, out vec3 bitangent) {
+    tangent = transformVector(data, along.xyz);
+    tangent -= n * dot(n, tangent);
+    if (dot(tangent, tangent) < 1e-20) return false;
+    tangent = normalize(tangent);
+    bitangent = cross(n, tangent) * ((data.flags & kInstanceMirrored) != 0u ? -along.w : along.w);
+    return true;
+}
+
 vec3 mappedNormal(InstanceData data, MaterialData material, Patch at, float lod, float u) {
     vec3 n = at.shading;
     if (!needs(kNeedNormalMaps) || material.normalTexture == kNoTextureIndex) return n;
-    vec3 tangent = transformVector(data, at.tangent.xyz);
-    tangent -= n * dot(n, tangent);
-    if (dot(tangent, tangent) < 1e-20) return n;
-    tangent = normalize(tangent);
-    float handedness = (data.flags & kInstanceMirrored) != 0u ? -at.tangent.w : at.tangent.w;
-    vec3 bitangent = cross(n, tangent) * handedness;
+    vec3 tangent, bitangent;
+    if (!tangentFrame(data, at.tangent, n, tangent, bitangent)) return n;
     vec3 m = fetchMaterialTexture(material.normalTexture, at.uv, lod, u).xyz * 2.0 - 1.0;
     m.xy *= material.normalScale;
     vec3 mapped = m.x * tangent + m.y * bitangent + m.z * n;
     return dot(mapped, mapped) > 0.0 ? normalize(mapped) : n;
+}
+
+// KHR_materials_anisotropy: the roughness along the tangent, which the material turns, grows to 1.
+void setAnisotropy(inout Surface s, InstanceData data, vec4 along) {
+    vec3 front = s.frontFace ? s.normal : -s.normal, tangent, bitangent;
+    s.tangent = frameAround(s.normal)[0];
+    s.alphaTangent = s.alpha;
+    if (s.lobes.anisotropy <= 0.0) return;
+    if (tangentFrame(data, along, front, tangent, bitangent))
+        s.tangent = s.lobes.tangentCos * tangent + s.lobes.tangentSin * bitangent;
+    s.alpha = max(s.alpha, kSmallestAlpha);
+    s.alphaTangent = mix(s.alpha, 1.0, s.lobes.anisotropy * s.lobes.anisotropy);
 }
 
 // `ray`: the one that hit, of unit direction. `u`: rounds texture levels.
@@ -274,20 +332,38 @@ Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
     s.ior = material.ior;
     s.specular = material.specular;
     s.thin = (material.flags & kMaterialThin) != 0u;
+    s.eta = s.frontFace || s.thin ? s.ior : 1.0 / s.ior;
+    s.lobes = loadLobes(s.material);
+    if (needs(kNeedAnisotropy)) setAnisotropy(s, data, at.tangent);
     return s;
 }
 
-// An origin on the side of the surface that `direction` leaves to, moved by the bounds of the rounding errors and no more:
-// that of the position, and that of the distance at which this triangle or a coplanar neighbour would be hit again.
-vec3 offsetOrigin(Surface s, vec3 direction) {
+// Moved by the bounds of the rounding errors and no more: that of the position, and that of the distance at which this
+// triangle or a coplanar neighbour would be hit again.
+vec3 offsetByErrorBound(Surface s, float side) {
     float distance = dot(abs(s.geometricNormal), s.positionError) + s.distanceError;
-    vec3 shift = distance * s.geometricNormal;
-    shift = dot(direction, s.geometricNormal) < 0.0 ? -shift : shift;
+    vec3 shift = side * distance * s.geometricNormal;
     vec3 p = s.position + shift;
     // To the next float away from the surface, lest rounding undoes the shift.
     ivec3 bits = floatBitsToInt(p);
     ivec3 away = ivec3(sign(shift) * sign(p));
     return mix(intBitsToFloat(bits + away), p, equal(p, vec3(0.0)));
+}
+
+// By 256 units in the last place along a normal of an axis, near the origin by 2^-16: Waechter, Binder, "A Fast and Robust
+// Method for Avoiding Self-Intersection", Ray Tracing Gems, chapter 6, 2019.
+vec3 offsetByUlps(vec3 p, vec3 normal) {
+    const float kNearOrigin = 1.0 / 32.0;
+    ivec3 ulps = ivec3(256.0 * normal * sign(p));
+    return mix(intBitsToFloat(floatBitsToInt(p) + ulps), p + normal / 65536.0, lessThan(abs(p), vec3(kNearOrigin)));
+}
+
+// An origin on the side of the surface that `direction` leaves to.
+vec3 offsetOrigin(Surface s, vec3 direction) {
+    float side = dot(direction, s.geometricNormal) < 0.0 ? -1.0 : 1.0;
+    if (kOffset == kOffsetUlp) return offsetByUlps(s.position, side * s.geometricNormal);
+    if (kOffset == kOffsetEpsilon) return s.position + side * kOffsetEpsilonLength * s.geometricNormal;
+    return offsetByErrorBound(s, side);
 }
 
 #endif

@@ -1,11 +1,8 @@
-// The dispatcher: a surface's lobes behind three functions. A lobe that the scene does not need is not in the kernel.
+// The dispatcher: a surface's lobes behind two functions. A lobe that the scene does not need is not in the kernel.
 #ifndef RAYLAB_MATERIALS_GLSL
 #define RAYLAB_MATERIALS_GLSL
 
 #include "lib/surface.glsl"
-#include "materials/dielectric.glsl"
-#include "materials/ggx.glsl"
-#include "materials/lambert.glsl"
 
 struct BsdfSample {
     vec3 direction;  // world, unit
@@ -16,106 +13,126 @@ struct BsdfSample {
 
 const BsdfSample kAbsorbed = BsdfSample(vec3(0.0, 1.0, 0.0), vec3(0.0), 0.0, false);
 
-struct Lobes {
-    vec3 diffuse;  // albedo
-    vec3 f0;
-    float f90;
-    float specularShare;  // probability of the GGX lobe
+#include "materials/base.glsl"
+#include "materials/glass.glsl"
+#include "materials/layers.glsl"
+
+// How an opaque surface is drawn from: the base with sheen on it, and the clear coat.
+struct Opaque {
+    Base base;
+    float coatShare;  // probability of the clear coat
 };
 
-vec3 diffuseAlbedo(Surface s) { return s.baseColor * (1.0 - s.metallic); }
-
-// Reflectance at normal and at grazing incidence.
-vec3 reflectance0(Surface s) {
-    float r0 = (s.ior - 1.0) / (s.ior + 1.0);
-    return mix(vec3(s.specular * r0 * r0), s.baseColor, s.metallic);
-}
-float reflectance90(Surface s) { return mix(s.specular, 1.0, s.metallic); }
-
-Lobes lobesOf(Surface s, float cosO) {
-    vec3 diffuse = diffuseAlbedo(s);
-    if (!needs(kNeedSpecular)) return Lobes(diffuse, vec3(0.0), 0.0, 0.0);
-    vec3 f0 = reflectance0(s);
-    float f90 = reflectance90(s);
-    float reflected = maxComponent(fresnelSchlick(f0, f90, cosO));
-    float scattered = maxComponent(diffuse) * (1.0 - reflected);
-    float share = reflected > 0.0 ? reflected / (reflected + scattered) : 0.0;
-    return Lobes(diffuse, f0, f90, share > 0.0 ? clamp(share, 0.1, scattered > 0.0 ? 0.9 : 1.0) : 0.0);
+Opaque opaqueOf(Surface s, float cosO) {
+    Opaque o = Opaque(baseOf(s, cosO), 0.0);
+    if (needs(kNeedSheen)) {
+        float sheen = sheenReflected(s, cosO);
+        float scattered = o.base.albedo * (1.0 - o.base.specularShare) + sheen;
+        o.base.albedo += sheen;
+        o.base.specularShare = o.base.specularShare > 0.0 && sheen > 0.0
+                                   ? clamp(1.0 - scattered / o.base.albedo, 0.1, 0.9) : o.base.specularShare;
+    }
+    if (needs(kNeedClearcoat)) {
+        float coat = clearcoatAlbedo(s, cosO);
+        float below = (1.0 - coat) * o.base.albedo;
+        o.coatShare = coat > 0.0 ? clamp(coat / (coat + below), 0.1, below > 0.0 ? 0.9 : 1.0) : 0.0;
+    }
+    return o;
 }
 
-// What does not pass through the surface.
-float opaqueShare(Surface s) { return needs(kNeedTransmission) ? 1.0 - s.transmission * (1.0 - s.metallic) : 1.0; }
+// What sheen and clear coat leave of the lobes of the base, between two directions.
+float underSheen(Surface s, float cosO, float cosI) {
+    return 1.0 - max(sheenReflected(s, cosO), sheenReflected(s, cosI));
+}
+float underClearcoat(Surface s, float cosO, float cosI) {
+    return 1.0 - max(clearcoatAlbedo(s, cosO), clearcoatAlbedo(s, cosI));
+}
 
-// Whether the rough lobes alone matter here: a mirror direction can't be connected to a light.
-bool isSmooth(Surface s) { return s.alpha < kSmallestAlpha; }
+// f of all opaque lobes that are no mirrors, and their density: both directions above the surface.
+vec3 evalOpaque(Surface s, Opaque o, vec3 wo, vec3 wi, out float pdf) {
+    float cosO = dot(wo, s.normal), cosI = dot(wi, s.normal);
+    vec3 value = evalBase(s, o.base, wo, wi, pdf);
+    if (needs(kNeedSheen) && !isBlack(s.lobes.sheenColor))
+        value = value * underSheen(s, cosO, cosI) + evalSheen(s, wo, wi);
+    if (needs(kNeedClearcoat) && s.lobes.clearcoat > 0.0) {
+        float coatPdf;
+        float coat = evalClearcoat(s, wo, wi, coatPdf);
+        value = value * underClearcoat(s, cosO, cosI) + vec3(coat);
+        pdf = mix(pdf, coatPdf, o.coatShare);
+    }
+    return value;
+}
 
-// f cos of the lobes that scatter around, and the density with which sampleBsdf chooses wi. Both directions world, unit.
+// f |cos| of the lobes that scatter around, and the density with which sampleBsdf chooses wi. Both directions world, unit.
 vec3 evalBsdf(Surface s, vec3 wo, vec3 wi, out float pdf) {
     pdf = 0.0;
     float cosO = dot(wo, s.normal), cosI = dot(wi, s.normal);
-    if (cosI <= 0.0 || cosO <= 0.0 || dot(wi, s.geometricNormal) <= 0.0) return vec3(0.0);
+    if (cosO <= 0.0 || cosI * dot(wi, s.geometricNormal) <= 0.0) return vec3(0.0);
+    if (cosI < 0.0 && !needs(kNeedRoughTransmission)) return vec3(0.0);
     float opaque = opaqueShare(s);
-    if (opaque <= 0.0) return vec3(0.0);
-    Lobes lobes = lobesOf(s, cosO);
-    if (!needs(kNeedSpecular)) {
-        pdf = opaque * pdfCosineHemisphere(cosI);
-        return opaque * cosI * evalLambert(lobes.diffuse);
+    vec3 value = vec3(0.0);
+    if (opaque > 0.0 && cosI > 0.0) {
+        value = opaque * cosI * evalOpaque(s, opaqueOf(s, cosO), wo, wi, pdf);
+        pdf *= opaque;
     }
-    vec3 h = normalize(wo + wi);
-    vec3 fresnel = fresnelSchlick(lobes.f0, lobes.f90, dot(wo, h));
-    vec3 value = (1.0 - maxComponent(fresnel) * (1.0 - s.metallic)) * evalLambert(lobes.diffuse);
-    pdf = (1.0 - lobes.specularShare) * pdfCosineHemisphere(cosI);
-    if (!isSmooth(s)) {
-        float cosH = dot(h, s.normal);
-        value += fresnel * evalGgxReflection(cosO, cosI, cosH, s.alpha);
-        pdf += lobes.specularShare * pdfGgxReflection(cosO, cosH, s.alpha);
+    if (needs(kNeedRoughTransmission) && opaque < 1.0 && isRoughGlass(s)) {
+        float glassPdf;
+        value += (1.0 - opaque) * evalRoughGlass(s, wo, wi, glassPdf);
+        pdf += (1.0 - opaque) * glassPdf;
     }
-    pdf *= opaque;
-    return opaque * cosI * value;
+    return value;
 }
 
-BsdfSample sampleTransmission(Surface s, vec3 wo, float u) {
+BsdfSample mirrored(Surface s, vec3 wo, vec3 weight) {
+    vec3 wi = 2.0 * dot(wo, s.normal) * s.normal - wo;
+    return dot(wi, s.geometricNormal) > 0.0 ? BsdfSample(wi, weight, 0.0, false) : kAbsorbed;
+}
+
+BsdfSample scattered(Surface s, vec3 wo, vec3 wi) {
+    float pdf;
+    vec3 value = evalBsdf(s, wo, wi, pdf);
+    return pdf > 0.0 ? BsdfSample(wi, value / pdf, pdf, dot(wi, s.normal) < 0.0) : kAbsorbed;
+}
+
+BsdfSample sampleBase(Surface s, Opaque o, mat3 world, vec3 wo, float lobe, vec2 u) {
     float cosO = dot(wo, s.normal);
-    float eta = s.frontFace || s.thin ? s.ior : 1.0 / s.ior;
-    float cosT;
-    float reflectance = fresnelDielectric(cosO, eta, cosT);
-    if (s.thin) reflectance = thinReflectance(reflectance);
-    if (u < reflectance) {
-        vec3 wi = 2.0 * cosO * s.normal - wo;
-        return dot(wi, s.geometricNormal) > 0.0 ? BsdfSample(wi, vec3(1.0), 0.0, false) : kAbsorbed;
+    if (needs(kNeedSpecular) && lobe < o.base.specularShare) {
+        if (!isSmooth(s)) {
+            vec3 h = sampleFacet(s, world, wo, u);
+            return scattered(s, wo, 2.0 * dot(wo, h) * h - wo);
+        }
+        vec3 weight = fresnelSchlick(o.base.f0, o.base.f90, cosO) / (o.base.specularShare * (1.0 - o.coatShare));
+        if (needs(kNeedSheen)) weight *= underSheen(s, cosO, cosO);
+        if (needs(kNeedClearcoat)) weight *= underClearcoat(s, cosO, cosO);
+        return mirrored(s, wo, weight);
     }
-    if (s.thin) return BsdfSample(-wo, s.baseColor, 0.0, true);
-    vec3 wi = normalize(-wo / eta + (cosO / eta - cosT) * s.normal);
-    // Radiance is scaled by the square of the relative index where it enters a denser medium (Veach, section 5.2).
-    return dot(wi, s.geometricNormal) < 0.0 ? BsdfSample(wi, s.baseColor / (eta * eta), 0.0, true) : kAbsorbed;
+    float pdf;
+    return scattered(s, wo, world * sampleCosineHemisphere(u, pdf));
 }
 
 // `lobe` chooses between the lobes, `u` within one.
 BsdfSample sampleBsdf(Surface s, vec3 wo, float lobe, vec2 u) {
-    float cosO = dot(wo, s.normal);
     if (needs(kNeedTransmission)) {
-        float through = s.transmission * (1.0 - s.metallic);
-        if (lobe < through) return sampleTransmission(s, wo, lobe / through);
+        float through = throughShare(s);
+        if (lobe < through) {
+            if (!isRoughGlass(s)) return sampleTransmission(s, wo, lobe / through);
+            vec3 wi = sampleRoughGlass(s, wo, lobe / through, u);
+            return wi == vec3(0.0) ? kAbsorbed : scattered(s, wo, wi);
+        }
         lobe = (lobe - through) / (1.0 - through);
     }
-    mat3 world = frameAround(s.normal);
-    vec3 wi;
-    Lobes lobes = lobesOf(s, cosO);
-    if (needs(kNeedSpecular) && lobe < lobes.specularShare) {
-        if (isSmooth(s)) {
-            wi = 2.0 * cosO * s.normal - wo;
-            if (dot(wi, s.geometricNormal) <= 0.0) return kAbsorbed;
-            return BsdfSample(wi, fresnelSchlick(lobes.f0, lobes.f90, cosO) / lobes.specularShare, 0.0, false);
+    mat3 world = shadingFrame(s);
+    Opaque o = opaqueOf(s, dot(wo, s.normal));
+    if (needs(kNeedClearcoat) && o.coatShare > 0.0) {
+        if (lobe < o.coatShare) {
+            if (isCoatSmooth(s))
+                return mirrored(s, wo, vec3(s.lobes.clearcoat * clearcoatFresnel(dot(wo, s.normal)) / o.coatShare));
+            vec3 h = world * sampleGgxNormal(wo * world, vec2(s.lobes.clearcoatAlpha), u);
+            return scattered(s, wo, 2.0 * dot(wo, h) * h - wo);
         }
-        vec3 o = wo * world;
-        wi = world * reflect(-o, sampleGgxNormal(o, s.alpha, u));
-    } else {
-        float pdfLocal;
-        wi = world * sampleCosineHemisphere(u, pdfLocal);
+        lobe = (lobe - o.coatShare) / (1.0 - o.coatShare);
     }
-    float pdf;
-    vec3 value = evalBsdf(s, wo, wi, pdf);
-    return pdf > 0.0 ? BsdfSample(wi, value / pdf, pdf, false) : kAbsorbed;
+    return sampleBase(s, o, world, wo, lobe, u);
 }
 
 #endif

@@ -29,10 +29,16 @@ RAYLAB_CONST uint kBindTopLevel = 19;       // acceleration structure: only in t
 RAYLAB_CONST uint kBindCounts = 20;         // storage buffer, RayCounts: only in the ray-list kernels
 RAYLAB_CONST uint kBindBlueNoise = 21;       // texel buffer, uint: ranks of the mask, row by row
 RAYLAB_CONST uint kBindPhong = 22;           // texel buffer, uvec4: four a material (PhongData)
-RAYLAB_CONST uint kBindingCount = 23;
+RAYLAB_CONST uint kBindLightNodes = 23;      // texel buffer, uvec4: two a node of the tree over lights (LightNodeData)
+RAYLAB_CONST uint kBindLightTrails = 24;     // texel buffer, uvec2: trail, 1 / area (float bits) of a primitive that emits
+RAYLAB_CONST uint kBindSampleRates = 25;     // texel buffer, float: samples of a block of pixels over those of all, where it is adaptive
+RAYLAB_CONST uint kBindAlbedo = 26;          // texel buffer, uvec4: directional albedos (engine/render/directional_albedo.h)
+RAYLAB_CONST uint kBindLobes = 27;           // texel buffer, uvec4: four a material (LobeData)
+RAYLAB_CONST uint kBindingCount = 28;
 
 RAYLAB_CONST uint kTileSize = 8;                            // a workgroup renders a tile of 8 x 8 pixels
 RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;
+RAYLAB_CONST uint kLanesPerBlock = 8;  // of a tile: 4 x 2 pixels (film/render_main.glsl)
 
 RAYLAB_CONST uint kSpecNeeds = 0;       // which NEED_ bits the kernel contains
 RAYLAB_CONST uint kSpecIntegrator = 1;  // IntegratorId
@@ -48,10 +54,26 @@ RAYLAB_CONST uint kSpecHighlight = 10;   // kHighlight...
 RAYLAB_CONST uint kSpecReflection = 11;  // kReflection...
 RAYLAB_CONST uint kSpecBeyond = 12;      // kBeyond...
 RAYLAB_CONST uint kSpecAntialias = 13;   // kAntialias...
+RAYLAB_CONST uint kSpecEnergy = 14;      // kEnergy...
 RAYLAB_CONST uint kSpecSampler = 16;    // kSampler...
 RAYLAB_CONST uint kSpecFilter = 17;     // kFilter...
 RAYLAB_CONST uint kSpecThinLens = 18;   // 1: rays start on a lens
 RAYLAB_CONST uint kSpecClamp = 19;      // 1: samples are cut at frame.clampRadiance
+RAYLAB_CONST uint kSpecOffsetEpsilon = 27;  // float: scene units
+RAYLAB_CONST uint kSpecSlab = 28;           // kSlab...
+RAYLAB_CONST uint kSpecOffset = 29;         // kOffset...
+RAYLAB_CONST uint kSpecLightTree = 30;  // 1: lights are chosen by a tree
+RAYLAB_CONST uint kSpecCameraMotion = 31;  // 1: the camera moves
+RAYLAB_CONST uint kSpecAdaptive = 32;      // 1: blocks of pixels differ in their samples
+
+// Slab tests of the software traversals.
+RAYLAB_CONST uint kSlabPadded = 0;
+RAYLAB_CONST uint kSlabPlain = 1;
+
+// How far a ray starts off the surface that it leaves, in the order of the setting's choices.
+RAYLAB_CONST uint kOffsetErrorBound = 0;
+RAYLAB_CONST uint kOffsetUlp = 1;
+RAYLAB_CONST uint kOffsetEpsilon = 2;
 
 RAYLAB_SHARED_END
 #endif

@@ -43,6 +43,10 @@ RAYLAB_CONST uint kReflectionFixed = 1;
 RAYLAB_CONST uint kBeyondBlack = 0;
 RAYLAB_CONST uint kBeyondAverage = 1;
 
+// What of the light that scatters between microfacets more than once is shown, in the order of the setting's choices.
+RAYLAB_CONST uint kEnergySingle = 0;    // nothing
+RAYLAB_CONST uint kEnergyMultiple = 1;  // all
+
 // Where in its pixel a sample lies.
 RAYLAB_CONST uint kAntialiasFilter = 0;  // by the filter
 RAYLAB_CONST uint kAntialiasCentre = 1;
@@ -99,10 +103,24 @@ struct FrameParams {
     float aoDistance;   // length of the rays of ambient occlusion
     uint aoRays;        // of a sample
     float aoShare;      // 1 / aoRays
-    float ambient;      // direct, whitted: radiance from everywhere that diffuse surfaces scatter
+    uint shapedCount;   // lights of a shape: the first of the punctual ones
+    float shutter;      // part of the camera's motion that is seen
+    vec3 lightGridOrigin;  // of the boxes in the tree over lights
+    uint sunDiscCount;  // the last of the punctual lights
+    vec3 lightGridStep;
+    float padding0;
+    vec3 endPosition;  // of the camera where its motion ends, as above
+    float padding1;
+    vec3 endRight;
+    float padding2;
+    vec3 endUp;
+    float padding3;
+    vec3 endForward;
+    float padding4;
+    vec3 ambient;       // direct, whitted: radiance from everywhere that diffuse surfaces scatter
     float threshold;    // direct, whitted: mean weight under which a branch ends
 };
-RAYLAB_CHECK(FrameParams, 208);
+RAYLAB_CHECK(FrameParams, 320);
 
 // A film pixel in two-float sums: sum and sum of squares as unevaluated hi + lo, so that a million samples lose nothing.
 struct FilmPixel {

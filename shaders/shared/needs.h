@@ -18,8 +18,16 @@ RAYLAB_CONST uint kNeedEmissive = 1u << 8;        // emissive triangles as light
 RAYLAB_CONST uint kNeedPunctual = 1u << 9;        // point, directional and spot lights
 RAYLAB_CONST uint kNeedEnvironment = 1u << 10;    // radiance from infinitely far away
 RAYLAB_CONST uint kNeedQuadrics = 1u << 11;       // surfaces of the second degree
-RAYLAB_CONST uint kNeedCount = 12;
-RAYLAB_CONST uint kNeedAll = (1u << 12) - 1u;
+RAYLAB_CONST uint kNeedSpecularTint = 1u << 12;   // coloured reflection of dielectrics
+RAYLAB_CONST uint kNeedClearcoat = 1u << 13;      // a second layer above the base
+RAYLAB_CONST uint kNeedSheen = 1u << 14;          // cloth
+RAYLAB_CONST uint kNeedAnisotropy = 1u << 15;     // GGX of two roughnesses, hence tangents
+RAYLAB_CONST uint kNeedRoughTransmission = 1u << 16;  // rough dielectric
+RAYLAB_CONST uint kNeedAbsorption = 1u << 17;     // light fades inside volumes
+RAYLAB_CONST uint kNeedNesting = 1u << 18;        // volumes that overlap, by priority
+RAYLAB_CONST uint kNeedShapes = 1u << 19;         // lights of a shape: spheres, discs, rectangles, the sun's disc
+RAYLAB_CONST uint kNeedCount = 20;
+RAYLAB_CONST uint kNeedAll = (1u << 20) - 1u;
 
 RAYLAB_SHARED_END
 #endif

@@ -97,7 +97,7 @@ struct InstanceData {
     uint firstPrimitive;  // into the triangles or the quadrics of all meshes
     uint material;
     uint flags;  // kInstance...
-    uint padding;
+    uint firstTrail;  // of its primitives, where they emit and there is a tree over lights
 };
 RAYLAB_CHECK(InstanceData, 64);
 RAYLAB_CONST uint kWordsInstance = 4;
@@ -149,6 +149,26 @@ RAYLAB_CONST float kAlphaBlend = -1.0f;
 RAYLAB_CONST uint kMaterialDoubleSided = 1u;
 RAYLAB_CONST uint kMaterialThin = 2u;
 
+RAYLAB_CONST uint kAlbedoCells = 32;  // of the tables of directional albedos, along each axis
+RAYLAB_CONST float kSmallestSheenAlpha = 0.01f;  // below, the fibres stand too straight for floats
+RAYLAB_CONST float kMostSheenAlbedo = 2.5f;  // of the table: the model's own exceeds 1 where the fibres are straight
+
+// Lobes that few materials have; a kernel loads of it what it needs.
+struct LobeData {
+    vec3 specularColor;
+    float clearcoat;
+    vec3 sheenColor;
+    float sheenRoughness;
+    vec3 absorption;  // coefficient, 1 / scene unit
+    float clearcoatAlpha;
+    float anisotropy;
+    float tangentCos;  // of the rotation from the tangent
+    float tangentSin;
+    uint priority;
+};
+RAYLAB_CHECK(LobeData, 64);
+RAYLAB_CONST uint kWordsLobe = 4;
+
 // What the Phong model knows of a material beside MaterialData (engine/scene/scene.h, PhongMaterial).
 struct PhongData {
     vec3 diffuse;
@@ -191,10 +211,33 @@ struct EmissiveData {
 RAYLAB_CHECK(EmissiveData, 64);
 RAYLAB_CONST uint kWordsEmissive = 4;
 
+// A node of the tree over lights (engine/accel/light_tree.h): a pair of nodes side by side are the children of one.
+struct LightNodeData {
+    uint loXY;  // box, 16 bits each, in steps of FrameParams.lightGridStep
+    uint loZhiX;
+    uint hiYZ;
+    uint axis;  // of the cone, octahedral
+    float power;
+    uint cosines;    // of thetaO and thetaE, 2 x 16 bits signed normalised
+    uint reference;  // leaf: a light, emissive triangles before punctual ones; else: the pair of its children
+    uint flags;      // kLightNode...
+};
+RAYLAB_CHECK(LightNodeData, 32);
+RAYLAB_CONST uint kWordsLightNode = 2;
+RAYLAB_CONST uint kLightNodeLeaf = 1u;
+RAYLAB_CONST uint kLightNodeTwoSided = 2u;
+
 RAYLAB_CONST uint kPunctualPoint = 0;
 RAYLAB_CONST uint kPunctualDirectional = 1;
 RAYLAB_CONST uint kPunctualSpot = 2;
+RAYLAB_CONST uint kPunctualSphere = 3;
+RAYLAB_CONST uint kPunctualDisc = 4;
+RAYLAB_CONST uint kPunctualRectangle = 5;
+RAYLAB_CONST uint kPunctualSunDisc = 6;  // a directional light that comes from a disc
+RAYLAB_CONST uint kPunctualLambert = 7;  // a point that sends by the cosine from its direction
 
+// `shape`: spot, KHR_lights_punctual: clamp(cos * shape.x + shape.y)^2; sphere, disc: x the radius; rectangle: its second
+// edge, and `direction` is its first; sun's disc: x = 1 - cosine of its angular radius. Shapes: `intensity` is their radiance.
 struct PunctualData {
     vec3 position;
     uint kind;
@@ -202,10 +245,8 @@ struct PunctualData {
     float threshold;
     vec3 intensity;
     uint alias;
+    vec3 shape;
     float probability;
-    float spotScale;   // KHR_lights_punctual: clamp(cos * scale + offset)^2
-    float spotOffset;
-    uint padding;
 };
 RAYLAB_CHECK(PunctualData, 64);
 RAYLAB_CONST uint kWordsPunctual = 4;

@@ -13,8 +13,9 @@ const uint kTreeEnd = 0xffffffffu;
 
 // Distances are compared as bits, which order like integers from zero on. Of two negative ones it does not matter which
 // is taken: that end of the interval is behind the ray. 33 units in the last place are the rounding of both ends, as
-// derived in engine/accel/walk_slab.h.
-const int kTreeSlabUlps = 33;
+// derived in engine/accel/walk_slab.h. The plain test does without them, and without a guard against 0 times infinity.
+layout(constant_id = kSpecSlab) const uint kSlab = 0;
+const int kTreeSlabUlps = kSlab == kSlabPlain ? 0 : 33;
 const float kTreeSmallestDirection = 1.0e-20;
 
 struct SlabRay {
@@ -23,6 +24,7 @@ struct SlabRay {
 };
 
 SlabRay slabRay(vec3 origin, vec3 direction) {
+    if (kSlab == kSlabPlain) return SlabRay(origin, 1.0 / direction);
     vec3 tiny = mix(vec3(kTreeSmallestDirection), vec3(-kTreeSmallestDirection), lessThan(direction, vec3(0.0)));
     return SlabRay(origin, 1.0 / mix(direction, tiny, lessThan(abs(direction), vec3(kTreeSmallestDirection))));
 }

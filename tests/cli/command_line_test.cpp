@@ -14,12 +14,13 @@
 #include <vector>
 
 #include "engine/image/image_io.h"
+#include "tests/support/paths.h"
 
 namespace raylab {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kProgram = fs::path(RAYLAB_BINARY_DIR) / "raylab";
+const fs::path kProgram = support::binaryFolder() / "raylab";
 
 struct Outcome {
     int exitCode = -1;
@@ -99,7 +100,7 @@ TEST_F(CommandLine, SceneIsAFolder) {
 }
 
 TEST_F(CommandLine, TruncatedGlb) {
-    const std::string whole = textOf(fs::path(RAYLAB_BINARY_DIR) / "assets" / "cornell.glb");
+    const std::string whole = textOf(support::binaryFolder() / "assets" / "cornell.glb");
     ASSERT_GT(whole.size(), 100u);
     write("half.glb", whole.substr(0, whole.size() / 2));
     expectRefused({"render", "half.glb", "-o", "old.png"}, "half.glb");

@@ -11,11 +11,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/paths.h"
+
 namespace raylab {
 
 using Json = nlohmann::json;
 
-/// Runs raylab in a folder of its own, with a configuration folder of its own.
+/// Runs raylab in a folder of its own, with folders of its own for configuration and cache.
 class ProgramTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -28,8 +30,8 @@ protected:
     /// Returns the exit code; what was printed is in `out` and `err` of the folder.
     int runProgram(const std::string& arguments) const {
         const std::string folder = "'" + folder_.string() + "'";
-        const int status = std::system(("cd " + folder + " && XDG_CONFIG_HOME=" + folder +
-                                        " '" RAYLAB_BINARY_DIR "/raylab' " + arguments + " > out 2> err")
+        const int status = std::system(("cd " + folder + " && XDG_CONFIG_HOME=" + folder + " XDG_CACHE_HOME=" + folder +
+                                        " '" + (support::binaryFolder() / "raylab").string() + "' " + arguments + " > out 2> err")
                                            .c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Reads one of every struct that C++ and GLSL share, by the kernels' own loads where there are any, and writes its scalars
 // in the order of their declaration. tests/unit/gpu_layout_test.cpp says what they must be.
-#include "lib/scene_buffers.glsl"
+#include "lib/light_tree.glsl"
 
 layout(local_size_x = 1) in;
 layout(push_constant) uniform PushBlock { RenderPush push; };
@@ -73,6 +73,20 @@ void emitFrame() {
     emit(frame.aoDistance);
     emit(frame.aoRays);
     emit(frame.aoShare);
+    emit(frame.shapedCount);
+    emit(frame.shutter);
+    emit(frame.lightGridOrigin);
+    emit(frame.sunDiscCount);
+    emit(frame.lightGridStep);
+    emit(frame.padding0);
+    emit(frame.endPosition);
+    emit(frame.padding1);
+    emit(frame.endRight);
+    emit(frame.padding2);
+    emit(frame.endUp);
+    emit(frame.padding3);
+    emit(frame.endForward);
+    emit(frame.padding4);
     emit(frame.ambient);
     emit(frame.threshold);
 }
@@ -152,7 +166,7 @@ void emitGeometry() {
     emit(instance.firstPrimitive);
     emit(instance.material);
     emit(instance.flags);
-    emit(instance.padding);
+    emit(instance.firstTrail);
     emit(triangle.v0);
     emit(triangle.v1);
     emit(triangle.v2);
@@ -189,6 +203,17 @@ void emitMaterials() {
     emit(material.metallicRoughnessTexture);
     emit(material.normalTexture);
     emit(material.emissionTexture);
+    LobeData lobes = loadLobes(1u);
+    emit(lobes.specularColor);
+    emit(lobes.clearcoat);
+    emit(lobes.sheenColor);
+    emit(lobes.sheenRoughness);
+    emit(lobes.absorption);
+    emit(lobes.clearcoatAlpha);
+    emit(lobes.anisotropy);
+    emit(lobes.tangentCos);
+    emit(lobes.tangentSin);
+    emit(lobes.priority);
     PhongData phong = loadPhong(1u);
     emit(phong.diffuse);
     emit(phong.exponent);
@@ -215,16 +240,23 @@ void emitLights() {
     emit(emissive.primitive);
     emit(emissive.frontSign);
     emit(emissive.padding);
+    LightNodeData node = loadLightNode(1u);
+    emit(node.loXY);
+    emit(node.loZhiX);
+    emit(node.hiYZ);
+    emit(node.axis);
+    emit(node.power);
+    emit(node.cosines);
+    emit(node.reference);
+    emit(node.flags);
     emit(punctual.position);
     emit(punctual.kind);
     emit(punctual.direction);
     emit(punctual.threshold);
     emit(punctual.intensity);
     emit(punctual.alias);
+    emit(punctual.shape);
     emit(punctual.probability);
-    emit(punctual.spotScale);
-    emit(punctual.spotOffset);
-    emit(punctual.padding);
 }
 
 void main() {

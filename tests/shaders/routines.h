@@ -16,6 +16,17 @@ RAYLAB_CONST uint kRoutineDisc = 4;         // point
 RAYLAB_CONST uint kRoutineFilter = 5;       // place in the image, from the pixel's corner
 RAYLAB_CONST uint kRoutineEnvironment = 6;  // direction, density
 
+RAYLAB_CONST uint kRoutineChooseLight = 0;  // tests/shaders/light_choice.comp: a light and its probability, by hashed numbers
+RAYLAB_CONST uint kRoutineLightTrail = 1;   // the probability of the light at the end of a trail
+
+struct LightChoicePush {
+    vec3 position;
+    uint count;
+    vec3 normal;
+    uint seed;
+};
+RAYLAB_CHECK(LightChoicePush, 32);
+
 struct SamplesPush {
     vec3 wo;
     float alpha;

@@ -19,7 +19,7 @@ vec4 draw(vec2 u, vec2 v) {
         vec3 direction = sampleCosineHemisphere(u, pdf);
         return vec4(direction, pdf);
     }
-    if (kRoutine == kRoutineGgxNormal) return vec4(sampleGgxNormal(push.wo, push.alpha, u), 0.0);
+    if (kRoutine == kRoutineGgxNormal) return vec4(sampleGgxNormal(push.wo, vec2(push.alpha), u), 0.0);
     if (kRoutine == kRoutineTriangle) return vec4(sampleTriangle(u), 0.0, 0.0);
     if (kRoutine == kRoutineDisc) return vec4(sampleDisc(u), 0.0, 0.0);
     if (kRoutine == kRoutineFilter) return vec4(sampleFilter(u), 0.0, 0.0);

@@ -281,6 +281,7 @@ TEST_F(Direct, AmbientLightIsScatteredByTheDiffuseAlbedo) {
     scene.lights.clear();
     RenderSettings settings = directSettings(0);
     settings.ambient = 0.5;
+    settings.environment = "none";
     expectEveryPixel(seenFrom(device_, scene, {1.0, 1.0, 0.0}, settings), 0.3, 1e-6);
 }
 

@@ -5,6 +5,7 @@
 #include "engine/scene/import.h"
 #include "tests/support/estimate.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/paths.h"
 
 namespace raylab::support {
 namespace {
@@ -40,7 +41,7 @@ struct NamedScene {
 
 /// Triangles; instances, alpha and textures; spheres and other quadrics, of glass, mirror and plaster.
 std::vector<NamedScene> scenes() {
-    const std::filesystem::path assets = std::filesystem::path(RAYLAB_BINARY_DIR) / "assets";
+    const std::filesystem::path assets = binaryFolder() / "assets";
     std::vector<NamedScene> scenes;
     for (const char* name : {"cornell", "courtyard", "quadrics"})
         scenes.push_back({name, importScene(assets / (std::string(name) + ".glb"))});

@@ -3,6 +3,7 @@
 #include "engine/render/tracer.h"
 #include "engine/scene/import.h"
 #include "tests/support/estimate.h"
+#include "tests/support/paths.h"
 #include "whitted_support.h"
 
 namespace raylab::support {
@@ -218,7 +219,7 @@ TEST_F(Whitted, TexturesRepeat) {
 
 /// Quadrics and triangles of glass, mirror and plaster under a sky and two lights of our own.
 Scene quadricsAsset() {
-    Scene scene = importScene(std::filesystem::path(RAYLAB_BINARY_DIR) / "assets/quadrics.glb");
+    Scene scene = importScene(binaryFolder() / "assets/quadrics.glb");
     scene.lights = {pointLight(scene.cameras.at(0).position + glm::vec3(-0.5f, 1.0f, 0.0f)),
                     pointLight(scene.cameras.at(0).position + glm::vec3(1.5f, 1.5f, -1.0f))};
     return scene;

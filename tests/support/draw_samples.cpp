@@ -10,6 +10,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/frame.h"
 #include "tests/shaders/routines.h"
+#include "tests/support/paths.h"
 
 namespace raylab::support {
 namespace {
@@ -66,7 +67,7 @@ std::vector<glm::vec4> drawSamples(Device& device, const DrawConfig& config) {
     const SpecConstant constants[] = {{shared::kSpecRoutine, config.routine},
                                       {shared::kSpecSampler, config.sampler},
                                       {shared::kSpecFilter, config.filter}};
-    const Kernel kernel = makeComputeKernel(device, layout, RAYLAB_BINARY_DIR "/tests/samples.comp.spv", constants);
+    const Kernel kernel = makeComputeKernel(device, layout, binaryFolder() / "tests/samples.comp.spv", constants);
     const shared::SamplesPush push{config.wo,          config.alpha,       config.count, config.samplesPerPixel,
                                    config.firstSample, config.pixelsPerRow};
     const uint32_t groups = (config.count + shared::kWorkgroupSize - 1) / shared::kWorkgroupSize;

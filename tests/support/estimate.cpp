@@ -7,20 +7,6 @@
 
 namespace raylab::support {
 
-Estimate estimateOf(const FilmImage& film, int channel) {
-    Estimate estimate;
-    double variance = 0.0;
-    const size_t count = film.mean.pixelCount();
-    for (size_t i = 0; i < count; ++i) {
-        const size_t at = 3 * i + static_cast<size_t>(channel);
-        estimate.mean += static_cast<double>(film.mean.pixels[at]);
-        variance += static_cast<double>(film.variance.pixels[at]) / static_cast<double>(film.samples.pixels[i]);
-    }
-    estimate.mean /= static_cast<double>(count);
-    estimate.standardError = std::sqrt(variance) / static_cast<double>(count);
-    return estimate;
-}
-
 void expectExact(const FilmImage& film, glm::dvec3 exact, const std::string& what) {
     for (int channel = 0; channel < 3; ++channel) {
         const Estimate estimate = estimateOf(film, channel);

@@ -3,19 +3,12 @@
 #include <glm/glm.hpp>
 #include <string>
 
-#include "engine/render/film.h"
+#include "engine/measure/stability/render_case.h"
 
 namespace raylab::support {
 
-/// The mean of pixels that all estimate the same quantity, or parts of the same integral.
-struct Estimate {
-    double mean = 0.0;
-    double standardError = 0.0;
-};
-
-/// Over all pixels of one channel; the error from the variance within the pixels. Stratified samples do better than it
-/// says, never worse.
-Estimate estimateOf(const FilmImage& film, int channel = 0);
+using stability::Estimate;
+using stability::estimateOf;
 
 /// The battery's criterion (design: batteries.md) in each channel: |mean - exact| at most 4 standard errors (6e-5 to
 /// fail at random) and at most 0.5 %; rounding may move the mean by 2e-5. Fails also where the standard error is above

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "engine/render/lighting.h"
+#include "tests/support/paths.h"
 
 namespace raylab::support {
 namespace {
@@ -27,29 +27,11 @@ Device& sharedDevice() {
 }
 
 RenderSettings smallImage(int64_t size, int64_t spp, int64_t depth) {
-    RenderSettings settings;
-    settings.width = size;
-    settings.height = size;
-    settings.spp = spp;
-    settings.depth = depth;
-    settings.seed = 20240607;
-    return settings;
-}
-
-FilmImage renderFilm(Device& onDevice, Scene scene, const RenderSettings& settings) {
-    settleEnvironment(scene, settings);
-    Renderer renderer(onDevice, scene, settings);
-    while (renderer.step()) {
-    }
-    return renderer.snapshot();
-}
-
-shared::RayData makeRay(glm::vec3 origin, glm::vec3 direction, float tMin, float tMax) {
-    return {origin, tMin, direction, tMax};
+    return stability::smallImage(RenderSettings{}, size, spp, depth);
 }
 
 std::optional<std::filesystem::path> sharedScene(const std::string& relativePath) {
-    std::filesystem::path path = std::filesystem::path(RAYLAB_SOURCE_DIR) / "../shared/scenes" / relativePath;
+    std::filesystem::path path = sharedScenes() / relativePath;
     if (std::filesystem::exists(path)) return path;
     std::cout << "not run: shared/scenes/" << relativePath << " is not beside the repository\n";
     return std::nullopt;

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "engine/gpu/device.h"
+#include "engine/measure/stability/ray_sets.h"
+#include "engine/measure/stability/render_case.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/scene.h"
 #include "shaders/shared/frame.h"
@@ -27,10 +29,9 @@ protected:
 /// A square image of few pixels, with settings that a test then changes. Light comes from the scene alone.
 RenderSettings smallImage(int64_t size, int64_t spp, int64_t depth);
 
-/// Settles the environment and renders all samples.
-FilmImage renderFilm(Device& device, Scene scene, const RenderSettings& settings);
+using stability::renderFilm;
 
-shared::RayData makeRay(glm::vec3 origin, glm::vec3 direction, float tMin = 0.0f, float tMax = 3e38f);
+using stability::makeRay;
 
 /// The shared scenes beside the repository, or nothing, and a line that says so.
 std::optional<std::filesystem::path> sharedScene(const std::string& relativePath);

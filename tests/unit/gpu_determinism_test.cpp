@@ -1,5 +1,6 @@
 #include "engine/scene/import.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/paths.h"
 
 namespace raylab::support {
 namespace {
@@ -15,7 +16,7 @@ protected:
     }
     FilmImage render(const RenderSettings& settings) { return renderFilm(device_, scene_, settings); }
 
-    const Scene scene_ = importScene(std::filesystem::path(RAYLAB_BINARY_DIR) / "assets/cornell.glb");
+    const Scene scene_ = importScene(support::binaryFolder() / "assets/cornell.glb");
 };
 
 void expectSameBits(const FilmImage& a, const FilmImage& b) {

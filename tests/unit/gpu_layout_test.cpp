@@ -6,6 +6,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/scene.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/paths.h"
 
 namespace raylab::support {
 namespace {
@@ -51,9 +52,11 @@ struct Structs {
     shared::VertexData vertex;
     shared::QuadricData quadric;
     std::array<shared::MaterialData, 2> materials{};
+    std::array<shared::LobeData, 2> lobes{};
     std::array<shared::PhongData, 2> phong{};
     shared::TextureData texture;
     shared::EmissiveData emissive;
+    std::array<shared::LightNodeData, 2> lightNodes{};
     shared::PunctualData punctual;
 };
 
@@ -63,7 +66,9 @@ void numberFrame(Numbering& n, shared::FrameParams& f) {
     n.assign(f.environmentWidth, f.environmentHeight, f.shareEmissive, f.sharePunctual, f.shareEnvironment);
     n.assign(f.emissiveTotal, f.environmentConstant, f.sceneDiagonal, f.gridOrigin, f.root, f.gridStep, f.hasUpperTree);
     n.assign(f.sampleCount, f.strataWidth, f.filterRadius, f.lensRadius, f.focusDistance, f.clampRadiance);
-    n.assign(f.mirrorAlpha, f.aoDistance, f.aoRays, f.aoShare, f.ambient, f.threshold);
+    n.assign(f.mirrorAlpha, f.aoDistance, f.aoRays, f.aoShare, f.shapedCount, f.shutter, f.lightGridOrigin, f.sunDiscCount);
+    n.assign(f.lightGridStep, f.padding0, f.endPosition, f.padding1, f.endRight, f.padding2, f.endUp, f.padding3);
+    n.assign(f.endForward, f.padding4, f.ambient, f.threshold);
 }
 
 void numberBuffers(Numbering& n, Structs& s) {
@@ -87,24 +92,27 @@ void numberTraversal(Numbering& n, shared::TraceTriangle& t, shared::TraceInstan
 
 void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData& t, shared::VertexData& v,
                     shared::QuadricData& q) {
-    n.assign(i.objectToWorld0, i.objectToWorld1, i.objectToWorld2, i.firstPrimitive, i.material, i.flags, i.padding);
+    n.assign(i.objectToWorld0, i.objectToWorld1, i.objectToWorld2, i.firstPrimitive, i.material, i.flags, i.firstTrail);
     n.assign(t.v0, t.v1, t.v2, t.padding);
     n.assign(v.position, v.normal, v.u, v.v, v.tangent, v.padding);
     n.assign(q.radii, q.zz, q.z, q.constant, q.height, q.isEllipsoid);
 }
 
-void numberMaterials(Numbering& n, shared::MaterialData& m, shared::PhongData& p, shared::TextureData& t) {
+void numberMaterials(Numbering& n, shared::MaterialData& m, shared::LobeData& l, shared::PhongData& p,
+                     shared::TextureData& t) {
     n.assign(m.baseColor, m.alpha, m.emission, m.alphaCutoff, m.metallic, m.roughness, m.transmission, m.ior);
     n.assign(m.specular, m.normalScale, m.emissionWeight, m.flags, m.baseColorTexture, m.metallicRoughnessTexture);
     n.assign(m.normalTexture, m.emissionTexture);
+    n.assign(l.specularColor, l.clearcoat, l.sheenColor, l.sheenRoughness, l.absorption, l.clearcoatAlpha);
+    n.assign(l.anisotropy, l.tangentCos, l.tangentSin, l.priority);
     n.assign(p.diffuse, p.exponent, p.specular, p.reflection, p.mirror, p.ior, p.tint, p.isGiven);
     n.assign(t.firstTexel, t.width, t.height, t.flags);
 }
 
-void numberLights(Numbering& n, shared::EmissiveData& e, shared::PunctualData& p) {
+void numberLights(Numbering& n, shared::EmissiveData& e, shared::LightNodeData& l, shared::PunctualData& p) {
     n.assign(e.p0, e.threshold, e.edge1, e.alias, e.edge2, e.material, e.instance, e.primitive, e.frontSign, e.padding);
-    n.assign(p.position, p.kind, p.direction, p.threshold, p.intensity, p.alias, p.probability, p.spotScale);
-    n.assign(p.spotOffset, p.padding);
+    n.assign(l.loXY, l.loZhiX, l.hiYZ, l.axis, l.power, l.cosines, l.reference, l.flags);
+    n.assign(p.position, p.kind, p.direction, p.threshold, p.intensity, p.alias, p.shape, p.probability);
 }
 
 std::vector<uint32_t> numberAll(Structs& s) {
@@ -113,8 +121,8 @@ std::vector<uint32_t> numberAll(Structs& s) {
     numberBuffers(numbering, s);
     numberTraversal(numbering, s.traceTriangle, s.traceInstance, s.traceQuadric);
     numberGeometry(numbering, s.instances[1], s.triangle, s.vertex, s.quadric);
-    numberMaterials(numbering, s.materials[1], s.phong[1], s.texture);
-    numberLights(numbering, s.emissive, s.punctual);
+    numberMaterials(numbering, s.materials[1], s.lobes[1], s.phong[1], s.texture);
+    numberLights(numbering, s.emissive, s.lightNodes[1], s.punctual);
     return numbering.bits();
 }
 
@@ -183,9 +191,11 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.buffer(48, result);
     inputs.texels(shared::kBindInstances, s.instances);
     inputs.texels(shared::kBindMaterials, s.materials);
+    inputs.texels(shared::kBindLobes, s.lobes);
     inputs.texels(shared::kBindPhong, s.phong);
+    inputs.texels(shared::kBindLightNodes, s.lightNodes);
     const KernelLayout layout = inputs.bind(sizeof(shared::RenderPush));
-    const Kernel kernel = makeComputeKernel(device_, layout, RAYLAB_BINARY_DIR "/tests/layout.comp.spv", {});
+    const Kernel kernel = makeComputeKernel(device_, layout, support::binaryFolder() / "tests/layout.comp.spv", {});
     device_.run("layout", [&](VkCommandBuffer commands) {
         launch(device_, commands, layout, kernel, {}, &s.push, 1);
     });

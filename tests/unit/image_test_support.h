@@ -17,6 +17,7 @@
 
 #include "engine/core/error.h"
 #include "engine/image/bitmap.h"
+#include "tests/support/paths.h"
 
 /// Image files built by hand, byte after byte, so that readers are not tested with our own writers alone.
 namespace raylab::imagetest {
@@ -184,6 +185,6 @@ inline std::string handMadeExr(const std::vector<ExrPart>& parts) {
     return file + table + chunks;
 }
 
-inline fs::path scenes() { return fs::path(RAYLAB_SOURCE_DIR) / ".." / "shared" / "scenes"; }
+inline fs::path scenes() { return support::sharedScenes(); }
 
 }  // namespace raylab::imagetest

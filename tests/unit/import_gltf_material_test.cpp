@@ -44,7 +44,7 @@ TEST(ImportGltfMaterial, FactorsAndExtensions) {
                     {"KHR_materials_ior", {{"ior", 1.33}}},
                     {"KHR_materials_volume", {{"thicknessFactor", 1}}},
                     {"KHR_materials_specular", {{"specularFactor", 0.25}}},
-                    {"KHR_materials_sheen", nlohmann::json::object()}}}});
+                    {"KHR_materials_iridescence", nlohmann::json::object()}}}});
     const Scene scene = importScene(gltf.write(folder));
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.name, "all");
@@ -60,7 +60,7 @@ TEST(ImportGltfMaterial, FactorsAndExtensions) {
     EXPECT_EQ(material.ior, 1.33f);
     EXPECT_FALSE(material.thin);
     EXPECT_EQ(material.specular, 0.25f);
-    EXPECT_TRUE(anyContains(scene.warnings, "KHR_materials_sheen")) << joined(scene.warnings);
+    EXPECT_TRUE(anyContains(scene.warnings, "KHR_materials_iridescence")) << joined(scene.warnings);
 }
 
 /// Defaults of the specification, section 5.19 and 5.22.

@@ -15,6 +15,7 @@
 
 #include "engine/core/error.h"
 #include "engine/scene/import.h"
+#include "tests/support/paths.h"
 
 /// Scene files written by hand, and the scenes that others made.
 namespace raylab::importtest {
@@ -43,7 +44,7 @@ private:
     fs::path path_;
 };
 
-inline const fs::path kScenes = fs::path(RAYLAB_SOURCE_DIR) / "../shared/scenes";
+inline const fs::path kScenes = support::sharedScenes();
 
 #define SKIP_WITHOUT_SCENE(file) \
     if (!fs::exists(file)) GTEST_SKIP() << (file) << " is absent: the shared scenes folder is not on this machine"

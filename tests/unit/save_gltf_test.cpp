@@ -7,6 +7,7 @@
 #include <random>
 
 #include "save_support.h"
+#include "tests/support/paths.h"
 
 namespace raylab::importtest {
 namespace {
@@ -73,7 +74,25 @@ Material makeMaterial(Dice& dice, const std::string& name) {
     material.transmission = dice(0, 1);
     material.ior = dice(1, 3);
     material.specular = dice(0, 1);
+    material.specularColor = dice.vec(0, 2);
+    material.clearcoat = dice(0, 1);
+    material.clearcoatRoughness = dice(0, 1);
+    material.sheenColor = dice.vec(0, 1);
+    material.sheenRoughness = dice(0, 1);
+    material.anisotropy = dice(0, 1);
+    material.anisotropyRotationRadians = dice(-3, 3);
+    material.attenuationColor = dice.vec(0, 1);
+    material.attenuationDistance = dice(0.1f, 9);
+    material.priority = static_cast<uint32_t>(dice(1, 100));
     return material;
+}
+
+void addSize(Dice& dice, Light& light, bool isSunDisc) {
+    if (light.kind == LightKind::sphere || light.kind == LightKind::disc) light.radius = dice(0.1f, 9);
+    if (light.kind == LightKind::directional && isSunDisc) light.angularRadiusRadians = dice(0, 1.5f);
+    if (light.kind != LightKind::rectangle) return;
+    light.size = {dice(0.1f, 9), dice(0.1f, 9)};
+    light.tangent = glm::normalize(glm::cross(light.direction, dice.unit()));
 }
 
 void addSurroundings(Dice& dice, Scene& scene) {
@@ -82,7 +101,7 @@ void addSurroundings(Dice& dice, Scene& scene) {
         camera.fovYRadians = dice(0.1f, 3.0f);
         if (i % 2 == 1) camera.up = dice.unit();
         scene.cameras.push_back(camera);
-        Light light{.name = "light " + std::to_string(i), .kind = static_cast<LightKind>(i % 3)};
+        Light light{.name = "light " + std::to_string(i), .kind = static_cast<LightKind>(i % 6)};
         light.position = dice.vec(-9, 9);
         light.direction = dice.unit();
         light.intensity = dice.vec(0, 1) * std::exp2(dice(-20, 60));
@@ -90,6 +109,7 @@ void addSurroundings(Dice& dice, Scene& scene) {
             light.innerConeRadians = dice(0, 0.5f);
             light.outerConeRadians = dice(0.5f, 1.5f);
         }
+        addSize(dice, light, i > 20);
         scene.lights.push_back(light);
     }
     Environment environment{.radiance = Bitmap(8, 4, 3)};
@@ -122,6 +142,8 @@ Scene everything() {
     scene.materials[2].doubleSided = true;
     scene.materials[2].thin = false;
     scene.materials[2].emission = {8.0f, 0.0f, 1.0f};
+    scene.materials[2].anisotropy = 0.0f;  // an anisotropic one has the importer make the tangents that its mesh lacks
+    scene.materials[2].anisotropyRotationRadians = 0.0f;
     scene.meshes = {makeMesh(dice, "a", 0), makeMesh(dice, "b", 1), makeMesh(dice, "a", 2), makeQuadrics(dice, 3)};
     scene.meshes[1].tangents.clear();
     scene.meshes[1].uvs.clear();
@@ -167,7 +189,7 @@ TEST(SaveGltf, KeepsTheLimitsOfTheSun) {
 TEST(SaveGltf, KeepsRaylabsOwnScenes) {
     const ScratchFolder folder;
     size_t count = 0;
-    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(RAYLAB_BINARY_DIR) / "assets")) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(support::binaryFolder() / "assets")) {
         if (entry.path().extension() != ".glb") continue;
         SCOPED_TRACE(entry.path().string());
         expectLossless(importScene(entry.path()), folder);
@@ -271,8 +293,8 @@ TEST(SaveGltf, StaysWithinTheRangesOfTheFormat) {
         for (const double channel : light["color"]) EXPECT_LE(channel, 1.0);
     for (const nlohmann::json& view : document["bufferViews"]) EXPECT_EQ(view["byteOffset"].get<size_t>() % 4, 0u);
     EXPECT_EQ(document["samplers"].size(), 3u) << "two of the four textures share theirs";
-    for (const char* name : {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-                             "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_volume"})
+    for (const char* name : {"KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
+                             "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_volume"})
         EXPECT_EQ(std::count(document["extensionsUsed"].begin(), document["extensionsUsed"].end(), name), 1) << name;
     EXPECT_EQ(document["buffers"][0]["byteLength"].get<size_t>(), fs::file_size(folder.path() / "s.bin"));
 }

@@ -39,6 +39,15 @@ inline void expectSame(const Material& a, const Material& b) {
     };
     expectSameBits(numbers(a), numbers(b),
                    a.name + " alpha, metallic, roughness, normalScale, cutoff, transmission...");
+    const auto lobes = [](const Material& m) {
+        return std::vector<float>{m.specularColor.x,    m.specularColor.y, m.specularColor.z,
+                                  m.sheenColor.x,       m.sheenColor.y,    m.sheenColor.z,
+                                  m.attenuationColor.x, m.attenuationColor.y, m.attenuationColor.z,
+                                  m.clearcoat,          m.clearcoatRoughness, m.sheenRoughness,
+                                  m.anisotropy,         m.anisotropyRotationRadians, m.attenuationDistance};
+    };
+    expectSameBits(lobes(a), lobes(b), a.name + " specular colour, sheen colour, attenuation, coat, sheen, anisotropy...");
+    EXPECT_EQ(a.priority, b.priority) << a.name;
     EXPECT_EQ(a.baseColorTexture, b.baseColorTexture) << a.name;
     EXPECT_EQ(a.metallicRoughnessTexture, b.metallicRoughnessTexture) << a.name;
     EXPECT_EQ(a.normalTexture, b.normalTexture) << a.name;
@@ -83,10 +92,14 @@ inline void expectSame(const Light& a, const Light& b) {
     expectSameBits(a.intensity, b.intensity, a.name + " intensity");
     expectSameBits(a.innerConeRadians, b.innerConeRadians, a.name + " inner cone");
     expectSameBits(a.outerConeRadians, b.outerConeRadians, a.name + " outer cone");
+    expectSameBits(a.radius, b.radius, a.name + " radius");
+    expectSameBits(a.angularRadiusRadians, b.angularRadiusRadians, a.name + " angular radius");
+    expectSameBits(a.size, b.size, a.name + " size");
+    expectSameBits(a.tangent, b.tangent, a.name + " tangent");
 }
 
-template <class T>
-void expectSameList(const std::vector<T>& a, const std::vector<T>& b, const char* what) {
+template <class List>
+void expectSameList(const List& a, const List& b, const char* what) {
     ASSERT_EQ(a.size(), b.size()) << what;
     for (size_t i = 0; i < a.size(); ++i) {
         SCOPED_TRACE(std::string(what) + " " + std::to_string(i));

@@ -1,0 +1,53 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Draws from, and evaluates, the material of the first triangle of a scene, the floor, seen from above.
+#include "lib/random.glsl"
+#include "materials/materials.glsl"
+#include "bsdf_push.h"
+
+layout(local_size_x = kWorkgroupSize) in;
+layout(push_constant) uniform PushBlock { BsdfPush push; };
+layout(set = 0, binding = kBindHits, std430) writeonly buffer ResultBlock { vec4 result[]; };
+
+// Two numbers of the invocation.
+vec2 numbers(uint i, uint pair) {
+    uint key = hashCombine(frame.seed, hashCombine(i, pair));
+    return vec2(unitFloat(key), unitFloat(hashUint(key ^ 0x68bc21ebu)));
+}
+
+Surface seenFrom(vec3 wo) {
+    return surfaceAt(Ray(wo, 0.0, -wo, kInfinity, 0u), Hit(1.0, vec2(0.3), 0u, 0u), RayCone(0.0, 0.0), 0.5);
+}
+
+vec4 sampled(uint i) {
+    BsdfSample drawn = sampleBsdf(seenFrom(push.wo), push.wo, numbers(i, 0u).x, numbers(i, 1u));
+    return drawn.pdf > 0.0 ? vec4(drawn.direction, drawn.pdf) : vec4(0.0);
+}
+
+// Cells of a grid over azimuth and height; density last.
+vec4 onGrid(uint i) {
+    float phi = 2.0 * kPi * ((float(i % push.columns) + 0.5) / float(push.columns) - 0.5);
+    float y = 2.0 * (float(i / push.columns) + 0.5) / float(push.count / push.columns) - 1.0;
+    float r = sqrt(max(0.0, 1.0 - y * y)), pdf;
+    vec3 f = evalBsdf(seenFrom(push.wo), push.wo, vec3(r * cos(phi), y, r * sin(phi)), pdf);
+    return vec4(f, pdf);
+}
+
+// Above the horizon: seen from there a metal's normal bends with the view (lib/surface.glsl).
+vec3 directionAbove(vec2 u) {
+    float pdf;
+    return normalize(sampleCosineHemisphere(u, pdf).xzy + vec3(0.0, 0.1, 0.0));
+}
+
+// f both ways between two directions above the surface.
+vec4 bothWays(uint i) {
+    float pdf;
+    vec3 a = directionAbove(numbers(i, 0u)), b = directionAbove(numbers(i, 1u));
+    return vec4(evalBsdf(seenFrom(a), a, b, pdf).xy / b.y, evalBsdf(seenFrom(b), b, a, pdf).xy / a.y);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    result[i] = push.mode == kBsdfSample ? sampled(i) : push.mode == kBsdfGrid ? onGrid(i) : bothWays(i);
+}
