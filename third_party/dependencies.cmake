@@ -7,8 +7,27 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(TBB REQUIRED)
-find_package(embree 3 QUIET)
+find_package(SPIRV-Tools-opt REQUIRED)
+# Major version of Embree, 0 where there is none.
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3 QUIET)
+endif()
+set(RAYLAB_EMBREE 0)
+if(embree_FOUND)
+  set(RAYLAB_EMBREE ${embree_VERSION_MAJOR})
+endif()
 find_program(GLSLANG NAMES glslangValidator glslang REQUIRED)
+
+find_package(glfw3 REQUIRED)
+
+# Debian's libimgui.a holds the library and its GLFW and Vulkan backends; it wants stb's compiled parts.
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)
+add_library(imgui INTERFACE)
+target_include_directories(imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR} ${IMGUI_INCLUDE_DIR}/backends)
+target_link_libraries(imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY})
 
 add_library(stb INTERFACE)
 find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)

@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <sstream>
 
 #include "engine/render/camera.h"
 #include "engine/render/lighting.h"
 #include "engine/scene/import.h"
+#include "ui/cli/variations.h"
 
 namespace raylab {
 namespace {
 
 constexpr std::array<std::string_view, 4> kColumns = {"tracer", "layout", "triangle", "builder"};
-
-std::vector<std::string> splitAt(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
-    return parts;
-}
 
 BenchLight parseLight(const std::string& text, const Scene& scene) {
     if (text.empty()) return defaultBenchLight(scene);
@@ -51,23 +44,10 @@ std::vector<RaySet> raysOf(Device& device, const Scene& scene, const BenchPlan& 
 }  // namespace
 
 std::vector<Variant> variantsOf(const RenderSettings& base, const std::vector<std::string>& vary) {
-    std::vector<Variant> result{{base, ""}};
-    for (const std::string& axis : vary) {
-        const size_t equals = axis.find('=');
-        if (equals == std::string::npos || equals + 1 == axis.size())
-            throw Error("--vary takes NAME=A,B,C, not '" + axis + "'");
-        const std::string name = axis.substr(0, equals);
-        const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), name);
-        std::vector<Variant> next;
-        for (const Variant& variant : result)
-            for (const std::string& value : splitAt(axis.substr(equals + 1), ',')) {
-                Variant grown = variant;
-                setSetting(setting, grown.settings, value);
-                if (std::ranges::count(kColumns, name) == 0)
-                    grown.text += (grown.text.empty() ? "" : " ") + name + "=" + value;
-                next.push_back(grown);
-            }
-        result = std::move(next);
+    std::vector<Variant> result;
+    for (Variation& variation : gridOf(base, vary)) {
+        std::erase_if(variation.assigned, [](const auto& a) { return std::ranges::count(kColumns, a.first) > 0; });
+        result.push_back({variation.settings, variation.text()});
     }
     return result;
 }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <numeric>
 
 #include "engine/core/file.h"
 #include "engine/core/log.h"
@@ -28,6 +30,13 @@ double raysPerSecond(const RenderResult& result) {
     return result.times.render > 0.0 ? static_cast<double>(result.image.rays) / result.times.render : 0.0;
 }
 
+/// Under --adaptive pixels differ.
+nlohmann::ordered_json samplesJson(const Bitmap& samples) {
+    const auto [least, most] = std::ranges::minmax(samples.pixels);
+    const double sum = std::accumulate(samples.pixels.begin(), samples.pixels.end(), 0.0);
+    return {{"least", least}, {"mean", sum / static_cast<double>(samples.pixels.size())}, {"most", most}};
+}
+
 nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSettings& settings, const Device& device,
                                   const RenderResult& r) {
     nlohmann::ordered_json seconds{{"import", r.importSeconds},    {"build", r.times.build},   {"upload", r.times.upload},
@@ -40,6 +49,7 @@ nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSett
             {"device", device.description().name},
             {"seconds", seconds},
             {"samples", r.samples},
+            {"samplesPerPixel", samplesJson(r.image.samples)},
             {"rays", r.image.rays},
             {"raysPerSecond", raysPerSecond(r)},
             {"samplesPerSecond", r.times.render > 0.0 ? static_cast<double>(r.pixelSamples) / r.times.render : 0.0},

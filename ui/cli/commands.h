@@ -20,5 +20,10 @@ void addBenchCommand(CLI::App& app, Command& chosen);
 void addCompareTracersCommand(CLI::App& app, Command& chosen);
 void addCountCommand(CLI::App& app, Command& chosen);
 void addConvertCommand(CLI::App& app, Command& chosen);
+void addEditCommand(CLI::App& app, Command& chosen);
+void addStabilityCommand(CLI::App& app, Command& chosen);
+void addChartCommand(CLI::App& app, Command& chosen);
+void addMergeCommand(CLI::App& app, Command& chosen);
+void addAdviseCommand(CLI::App& app, Command& chosen);
 
 }  // namespace raylab

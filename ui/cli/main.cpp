@@ -21,6 +21,11 @@ ExitCode runCommandLine(int argc, char** argv) {
     addCompareTracersCommand(app, chosen);
     addCountCommand(app, chosen);
     addConvertCommand(app, chosen);
+    addEditCommand(app, chosen);
+    addStabilityCommand(app, chosen);
+    addChartCommand(app, chosen);
+    addMergeCommand(app, chosen);
+    addAdviseCommand(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

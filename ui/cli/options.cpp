@@ -4,6 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "ui/cli/settings_file.h"
 
 namespace raylab {
 namespace {
@@ -32,10 +33,12 @@ SettingOptions::SettingOptions(CLI::App& command) {
             ->type_name(setting.unit.empty() ? "VALUE" : std::string(setting.unit));
     }
     command.add_option("--set", sets_, "any setting by name; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
+    command.add_option("--preset", preset_, "settings from a JSON file, as raylab advise writes it; explicit options win")->type_name("FILE");
 }
 
 RenderSettings SettingOptions::resolve() const {
     RenderSettings settings;
+    if (!preset_.empty()) applyPreset(settings, preset_);
     for (const auto& [name, text] : named_) setSetting(findSetting(renderSettingsTable(), name), settings, text);
     for (const std::string& assignment : sets_) {
         const size_t equals = assignment.find('=');

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 
 #include "engine/core/error.h"
 #include "engine/core/stopwatch.h"
 #include "engine/render/tonemap.h"
+#include "ui/cli/interrupt.h"
 #include "ui/cli/progress.h"
 
 namespace raylab {
@@ -15,26 +15,6 @@ namespace {
 /// Reading the film back to estimate its noise costs time: at most so often, and never more than a twentieth of all.
 constexpr double kNoiseInterval = 1.0;
 constexpr double kNoiseShare = 0.05;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// Turns Ctrl-C into a flag while it lives, so that what is rendered is written.
-class InterruptGuard {
-public:
-    InterruptGuard() {
-        interrupted = 0;
-        for (size_t i = 0; i < kSignals.size(); ++i) old_[i] = std::signal(kSignals[i], [](int) { interrupted = 1; });
-    }
-    ~InterruptGuard() {
-        for (size_t i = 0; i < kSignals.size(); ++i) std::signal(kSignals[i], old_[i]);
-    }
-    InterruptGuard(const InterruptGuard&) = delete;
-    InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-private:
-    static constexpr std::array kSignals = {SIGINT, SIGTERM};
-    std::array<void (*)(int), kSignals.size()> old_{};
-};
 
 /// Estimates the film's noise from time to time.
 class NoiseWatch {
@@ -61,7 +41,7 @@ std::string renderLoop(Renderer& renderer, const RenderSettings& settings, bool 
         const double error = noise.update(renderer, watch);
         const double ofTime = settings.timeLimit > 0.0 ? std::min(watch.seconds() / settings.timeLimit, 1.0) : 0.0;
         progress.show(std::max(renderer.fractionDone(), ofTime), renderer.completeSamples(), error);
-        if (interrupted != 0) return "interrupt";
+        if (InterruptGuard::isInterrupted()) return "interrupt";
         const bool everyPixelHasOne = renderer.completeSamples() > 0;
         if (settings.timeLimit > 0.0 && watch.seconds() >= settings.timeLimit && everyPixelHasOne) return "time-limit";
         if (settings.targetError > 0.0 && error >= 0.0 && error <= settings.targetError) return "target-error";
