@@ -2,6 +2,7 @@
 #include "tests/support/trace_choice.h"
 #include "tests/support/trace_oracle.h"
 #include "tests/support/trace_rays.h"
+#include "tests/unit/cut_out.h"
 
 /// Every layout and every triangle test on the device, against the oracle and against the tracer without a tree.
 namespace raylab::support {
@@ -42,22 +43,6 @@ TEST_F(Layouts, EveryLeafSizeAgreesWithOracle) {
             RayCaster caster(device_, scene, settings);
             expectAgreement(compareWithOracle(caster, oracle), oracle.rays.size());
         }
-}
-
-/// Every other texel of the material is a hole.
-void cutOut(Scene& scene) {
-    Texture texture;
-    texture.width = texture.height = 8;
-    for (uint32_t i = 0; i < 64; ++i) texture.texels.push_back((i + i / 8) % 2 == 0 ? 0xffffffffu : 0x00ffffffu);
-    scene.textures = {texture};
-    for (Material& material : scene.materials) {
-        material.baseColorTexture = 0;
-        material.alphaMode = AlphaMode::mask;
-    }
-    for (Mesh& mesh : scene.meshes) {
-        mesh.uvs.resize(mesh.positions.size());
-        for (size_t i = 0; i < mesh.uvs.size(); ++i) mesh.uvs[i] = {i % 3 == 1 ? 2.0f : 0.0f, i % 3 == 2 ? 2.0f : 0.0f};
-    }
 }
 
 TEST_F(Layouts, CutOutTrianglesAreThoseOfBruteForce) {

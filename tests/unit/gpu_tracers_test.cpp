@@ -7,6 +7,7 @@
 #include "tests/support/trace_choice.h"
 #include "tests/support/trace_oracle.h"
 #include "tests/support/trace_rays.h"
+#include "tests/unit/cut_out.h"
 
 /// Every tracer that the device runs, by merged trees and by a tree a mesh, against double precision.
 namespace raylab::support {
@@ -41,22 +42,6 @@ Score scoreOf(RayCaster& caster, const HitOracle& oracle, const std::vector<shar
         score.hits += closest[i].t >= 0.0f ? 1u : 0u;
     }
     return score;
-}
-
-/// Every other texel of the materials is a hole.
-void cutOut(Scene& scene) {
-    Texture texture;
-    texture.width = texture.height = 8;
-    for (uint32_t i = 0; i < 64; ++i) texture.texels.push_back((i + i / 8) % 2 == 0 ? 0xffffffffu : 0x00ffffffu);
-    scene.textures = {texture};
-    for (Material& material : scene.materials) {
-        material.baseColorTexture = 0;
-        material.alphaMode = AlphaMode::mask;
-    }
-    for (Mesh& mesh : scene.meshes) {
-        mesh.uvs.resize(mesh.positions.size());
-        for (size_t i = 0; i < mesh.uvs.size(); ++i) mesh.uvs[i] = {i % 3 == 1 ? 2.0f : 0.0f, i % 3 == 2 ? 2.0f : 0.0f};
-    }
 }
 
 class EveryTracer : public GpuTest {
