@@ -75,12 +75,12 @@ std::string settingText(const SettingValue& value) {
     return std::get<std::string>(value);
 }
 
-void throwUnknownSetting(const std::string& name, std::span<const std::string_view> known) {
+void throwUnknownSetting(std::string_view name, std::span<const std::string_view> known) {
     std::string near;
     for (const std::string_view candidate : known)
         if (editDistance(name, candidate) <= 2) near += (near.empty() ? "" : ", ") + std::string(candidate);
-    throw Error("there is no setting '" + name + "'" + (near.empty() ? "" : "; did you mean " + near + "?") +
-                " (--help lists them all)");
+    throw Error("there is no setting '" + std::string(name) + "'" +
+                (near.empty() ? "" : "; did you mean " + near + "?") + " (--help lists them all)");
 }
 
 }  // namespace raylab

@@ -49,7 +49,7 @@ SettingValue parseSetting(const SettingRule& rule, const std::string& text);
 std::string settingText(const SettingValue& value);
 
 /// Throws Error that lists names near to `name`.
-[[noreturn]] void throwUnknownSetting(const std::string& name, std::span<const std::string_view> known);
+[[noreturn]] void throwUnknownSetting(std::string_view name, std::span<const std::string_view> known);
 
 template <class S>
 SettingValue getSetting(const Setting<S>& setting, const S& values) {
@@ -66,7 +66,7 @@ void setSetting(const Setting<S>& setting, S& values, const std::string& text) {
 
 /// The row of that name. Throws Error where there is none.
 template <class S>
-const Setting<S>& findSetting(std::span<const Setting<S>> table, const std::string& name) {
+const Setting<S>& findSetting(std::span<const Setting<S>> table, std::string_view name) {
     std::vector<std::string_view> known;
     for (const Setting<S>& setting : table) {
         if (setting.name == name) return setting;

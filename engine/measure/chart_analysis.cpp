@@ -103,10 +103,14 @@ ChartCurve makeCurve(const ChartTable& table, const std::string& config, ErrorMe
     return curve;
 }
 
+// Configurations that trace the same paths differ by roundings alone: that is no accuracy to pay for.
+constexpr double kSameError = 1e-3;
+
 bool dominates(const ChartGroup& a, const ChartGroup& b) {
     const double timeA = a.deviceSeconds.value, timeB = b.deviceSeconds.value;
     const double errorA = a.error.value, errorB = b.error.value;
-    return timeA <= timeB && errorA <= errorB && (timeA < timeB || errorA < errorB);
+    return timeA <= timeB && errorA <= errorB * (1.0 + kSameError) &&
+           (timeA < timeB || errorA < errorB * (1.0 - kSameError));
 }
 
 bool surelyDominates(const ChartGroup& a, const ChartGroup& b) {

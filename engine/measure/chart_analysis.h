@@ -18,7 +18,7 @@ struct ChartGroup {
     Interval deviceSeconds;  ///< of one rendering; median, and the interval of the geometric mean
     Interval wallSeconds;
     std::optional<BiasEstimate> bias;
-    bool pareto = false;          ///< no other group is both faster and more accurate
+    bool pareto = false;          ///< no other group is faster and no less accurate (to .001 of it)
     bool paretoPossible = false;  ///< none is so beyond the intervals of both
 };
 

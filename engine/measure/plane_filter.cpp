@@ -64,7 +64,7 @@ std::vector<double> gaussianTaps(double sigma, int radius) {
 
 template <typename T>
 Plane<T> filterSeparable(const Plane<T>& input, std::span<const T> rowTaps, std::span<const T> columnTaps) {
-    if (input.values.empty()) return input;
+    if (input.values.empty()) return {input.width, input.height};
     return filterColumns(filterRows(input, rowTaps), columnTaps);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 namespace raylab {
 namespace {
@@ -101,6 +102,20 @@ TEST(ChartAnalysis, TheParetoFrontIsWhatNothingBeats) {
     EXPECT_GT(front, 1u);
     EXPECT_GT(possible, front);
     EXPECT_LT(possible, 100u);
+}
+
+/// Two triangle tests trace the same paths: a billionth less error is not worth a fifth more time.
+TEST(ChartAnalysis, RoundingIsNoPlaceOnTheParetoFront) {
+    std::vector<ChartCurve> curves(2);
+    for (const auto& [curve, seconds, error] : {std::tuple{0, 1.0, 0.1}, std::tuple{1, 1.2, 0.1 * (1.0 - 1e-9)}}) {
+        ChartGroup group;
+        group.deviceSeconds = {seconds, seconds, seconds};
+        group.error = {error, error, error};
+        curves[static_cast<size_t>(curve)].groups.push_back(group);
+    }
+    markPareto(curves);
+    EXPECT_TRUE(curves[0].groups[0].pareto);
+    EXPECT_FALSE(curves[1].groups[0].pareto);
 }
 
 ChartCurve exactCurve() {
