@@ -8,6 +8,7 @@
 
 #include "engine/core/file.h"
 #include "ui/editor/document_files.h"
+#include "ui/editor/inspection_actions.h"
 #include "ui/editor/scene_actions.h"
 #include "ui/editor/view_actions.h"
 
@@ -68,6 +69,11 @@ constexpr std::array kActions = {
     Action{"View", "Render to EXR", GLFW_KEY_F11, GLFW_MOD_SHIFT, [](EditorContext& context) { renderToFile(context, ".exr"); }, hasScene},
     Action{"View", "Screenshot", GLFW_KEY_F12, 0, saveScreenshot,
            [](const EditorContext& context) { return context.picture != nullptr; }},
+    Action{"View", "Boxes of the BVH", GLFW_KEY_B, 0, toggleBoxes, hasScene, showsBoxes},
+    Action{"View", "Counts of the rays", GLFW_KEY_C, 0, toggleCounts, hasScene, showsCounts},
+    Action{"View", "Pick a ray", GLFW_KEY_R, 0, startPicking, hasScene},
+    Action{"View", "Ray: a step on", GLFW_KEY_RIGHT, 0, stepForward, hasRay},
+    Action{"View", "Ray: a step back", GLFW_KEY_LEFT, 0, stepBack, hasRay},
     Action{"Help", "Keys", GLFW_KEY_F1, 0, [](EditorContext& context) { context.showKeys = !context.showKeys; }, nullptr,
            [](const EditorContext& context) { return context.showKeys; }},
 };
@@ -156,6 +162,8 @@ std::string keyText(int key, int mods) {
         case GLFW_KEY_DELETE: return text + "Del";
         case GLFW_KEY_ESCAPE: return text + "Esc";
         case GLFW_KEY_SPACE: return text + "Space";
+        case GLFW_KEY_LEFT: return text + "Left";
+        case GLFW_KEY_RIGHT: return text + "Right";
         default: return text + static_cast<char>(key);
     }
 }

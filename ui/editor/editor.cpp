@@ -18,6 +18,7 @@
 #include "ui/editor/context.h"
 #include "ui/editor/document_files.h"
 #include "ui/editor/imgui_backend.h"
+#include "ui/editor/inspection_actions.h"
 #include "ui/editor/layout.h"
 #include "ui/editor/latency.h"
 #include "ui/editor/model/edit_kinds.h"
@@ -80,7 +81,8 @@ public:
         files_.leave();
         keepConfig();
         session_.stop();
-        const uint32_t messages = session_.validationMessages() + window_.device().validationMessageCount();
+        const uint32_t messages = session_.validationMessages() + window_.device().validationMessageCount() +
+                                  countingValidationMessages(context_);
         return messages > 0 ? ExitCode::checkFailed : ExitCode::done;
     }
 

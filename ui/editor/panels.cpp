@@ -2,16 +2,22 @@
 
 #include <array>
 
+#include "ui/editor/inspection_panels.h"
+
 namespace raylab {
 
 std::span<const Panel> panelTable() {
     static constexpr std::array kPanels = {
         Panel{"Viewport", drawViewportPanel, Pane::centre},
         Panel{"Scene", drawScenePanel, Pane::left},
+        Panel{"BVH", drawBvhPanel, Pane::left},
+        Panel{"Counts", drawHeatPanel, Pane::left},
         Panel{"Inspector", drawInspectorPanel, Pane::right},
         Panel{"Render", drawRenderPanel, Pane::right},
         Panel{"Log", drawLogPanel, Pane::bottom},
         Panel{"Kernel", drawKernelPanel, Pane::bottom},
+        Panel{"Nodes", drawNodesPanel, Pane::bottom},
+        Panel{"Ray", drawRayPanel, Pane::bottom},
     };
     return kPanels;
 }

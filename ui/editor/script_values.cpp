@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "ui/editor/inspection_actions.h"
 
 namespace raylab {
 namespace {
@@ -146,6 +147,8 @@ std::string scriptValue(const std::string& name, const ScriptHost& host) {
     if (const auto text = texts.find(name); text != texts.end()) return text->second;
     const auto numbers = numbersOf(host);
     if (const auto number = numbers.find(name); number != numbers.end()) return numberText(number->second);
+    const auto inspected = inspectionNumbers(host.context);
+    if (const auto number = inspected.find(name); number != inspected.end()) return numberText(number->second);
     const RenderSettings& settings = host.context.state.settings();
     return settingText(getSetting(findSetting(renderSettingsTable(), name), settings));
 }

@@ -11,8 +11,10 @@
 #include "engine/core/log.h"
 #include "engine/image/image8.h"
 #include "engine/scene/bounds.h"
+#include "ui/editor/bvh_overlay.h"
 #include "ui/editor/camera_control.h"
 #include "ui/editor/file_render.h"
+#include "ui/editor/free_name.h"
 #include "ui/editor/model/edit_cameras.h"
 
 namespace raylab {
@@ -31,13 +33,10 @@ std::optional<Bounds> selectedBox(const EditorState& state) {
     return sceneBounds(chosen);
 }
 
-/// The first of STEM-1.EXTENSION, STEM-2, ... that is free in the current folder.
+/// Of the scene.
 std::filesystem::path freeName(const EditorContext& context, const std::string& extension) {
     const std::string stem = context.state.document->file().stem().string();
-    for (int i = 1;; ++i) {
-        std::filesystem::path path = "raylab-" + (stem.empty() ? "scene" : stem) + "-" + std::to_string(i) + extension;
-        if (!std::filesystem::exists(path)) return path;
-    }
+    return freeFileName("raylab-" + (stem.empty() ? "scene" : stem), extension);
 }
 
 }  // namespace
@@ -52,7 +51,9 @@ void nextTracer(EditorContext& context) {
 void focusSelection(EditorContext& context) {
     const EditorState& state = context.state;
     const editor::Selection& selection = state.document->selection();
-    if (const auto box = selectedBox(state))
+    if (const auto node = selectedNodeBox(context))
+        frameBox(context.state.camera, *node, context.view.aspect());
+    else if (const auto box = selectedBox(state))
         frameBox(context.state.camera, *box, context.view.aspect());
     else if (selection.light)
         setPivot(context.state.camera, state.scene().lights[*selection.light].position);

@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "engine/scene/bounds.h"
+#include "ui/editor/bvh_overlay.h"
 #include "ui/editor/camera_control.h"
 #include "ui/editor/gizmo_overlay.h"
+#include "ui/editor/heat_map.h"
 #include "ui/editor/model/edit_instances.h"
 #include "ui/editor/panels.h"
 #include "ui/editor/scene_actions.h"
@@ -113,6 +115,8 @@ void pickByPointer(EditorContext& context, ViewportState& v) {
     const bool still = way.x * way.x + way.y * way.y < kClickPixels * kClickPixels;
     const bool released = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && still && !io.KeyAlt;
     const bool doubled = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    const ViewRectangle& r = context.view;
+    if (released && takeBvhClick(context, (io.MousePos.x - r.x) / r.width, (io.MousePos.y - r.y) / r.height)) return;
     if (released || doubled) pickAt(context, v, doubled);
 }
 
@@ -177,7 +181,11 @@ void drawViewportPanel(EditorContext& context) {
     takeMaterialDrop(context, v);
     moveByPointer(context, v);
     flyByKeys(context, v);
+    keepHeatMap(context);
+    drawHeatMap(context);
     drawViewOverlay(context);
+    keepTrees(context);
+    drawBvhOverlay(context);
     const bool onHandle = drawGizmo(context);
     if (!onHandle) pickByPointer(context, v);
 }
