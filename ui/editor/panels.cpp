@@ -10,6 +10,7 @@ std::span<const Panel> panelTable() {
         Panel{"Scene", drawScenePanel, Pane::left},
         Panel{"Inspector", drawInspectorPanel, Pane::right},
         Panel{"Render", drawRenderPanel, Pane::right},
+        Panel{"A/B", drawComparePanel, Pane::right},
         Panel{"Log", drawLogPanel, Pane::bottom},
         Panel{"Kernel", drawKernelPanel, Pane::bottom},
     };

@@ -10,6 +10,7 @@
 #include "engine/scene/bounds.h"
 #include "ui/editor/camera_control.h"
 #include "ui/editor/mesh_box.h"
+#include "ui/editor/outline.h"
 #include "ui/editor/theme.h"
 
 namespace raylab {
@@ -88,7 +89,9 @@ void drawViewOverlay(EditorContext& context) {
     const ViewRectangle& r = context.view;
     list.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
     if (context.config.showGrid) drawGrid(context, painter);
+    const bool hasOutline = !state.document->selection().instances.empty() && drawOutline(context);
     for (const uint32_t index : state.document->selection().instances) {
+        if (hasOutline) break;
         const Instance& instance = state.scene().instances[index];
         drawBox(meshBox(state.scene(), instance.mesh), instance.objectToWorld, painter, ImGui::GetColorU32(color::kSelection));
     }
