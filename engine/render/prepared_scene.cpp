@@ -5,6 +5,7 @@
 #include "engine/core/stopwatch.h"
 #include "engine/render/camera.h"
 #include "engine/render/device_defaults.h"
+#include "engine/render/prepared_settings.h"
 #include "engine/render/sampling.h"
 #include "shaders/shared/bindings.h"
 
@@ -78,6 +79,14 @@ void warnOfDarkness(const Scene& scene, const RenderSettings& settings) {
                    " surfaces stay dark unless --ambient is above 0");
 }
 
+/// What prepareScene() reads of the settings beside what trees and needs are made by; the camera is not among it.
+void readSettings(Device& device, const Scene& scene, const RenderSettings& settings, PreparedScene& prepared) {
+    prepared.cameraEnd = settings.cameraEnd.empty() ? prepared.camera : chooseCamera(scene, settings.cameraEnd);
+    prepared.lightConfig = lightConfig(settings);
+    prepared.ambient = ambientRadiance(scene, settings);
+    prepared.samplerMask = makeSamplerMask(device, settings);
+}
+
 }  // namespace
 
 PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSettings& settings,
@@ -85,14 +94,11 @@ PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSetti
     warnOfDarkness(scene, settings);
     PreparedScene prepared;
     prepared.camera = chooseCamera(scene, settings.camera);
-    prepared.cameraEnd = settings.cameraEnd.empty() ? prepared.camera : chooseCamera(scene, settings.cameraEnd);
     buildTracer(device, scene, resolveForDevice(settings, device.description()), control, prepared);
     Stopwatch watch;
-    prepared.lightConfig = lightConfig(settings);
-    prepared.ambient = ambientRadiance(scene, settings);
+    readSettings(device, scene, settings, prepared);
     prepared.kernelNeeds |= needsOfLights(scene, prepared.lightConfig);
     prepared.gpu = std::make_unique<GpuScene>(device, scene, prepared.lightConfig);
-    prepared.samplerMask = makeSamplerMask(device, settings);
     prepared.packSeconds = watch.seconds();
     return prepared;
 }
@@ -107,6 +113,12 @@ void updateShading(Device& device, const Scene& scene, PreparedScene& prepared) 
     prepared.needs = analyseNeeds(scene, treePlanConfig(prepared.traceConfig));
     // What is there can stay.
     prepared.kernelNeeds |= prepared.needs.mask | needsOfLights(scene, prepared.lightConfig);
+}
+
+void updateSettings(Device& device, const Scene& scene, const RenderSettings& settings, PreparedScene& prepared) {
+    warnOfDarkness(scene, settings);
+    readSettings(device, scene, settings, prepared);
+    updateShading(device, scene, prepared);
 }
 
 std::vector<BindingInfo> sceneBindings(const PreparedScene& prepared) {

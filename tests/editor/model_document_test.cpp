@@ -312,6 +312,10 @@ TEST(EditorDocument, EditsSayWhatTheyTouch) {
     EXPECT_EQ(kindsOf(removeSurroundings()), kEditEnvironment);
     EXPECT_EQ(kindsOf(setRenderSetting("exposure", "1")), kEditFilm);
     EXPECT_EQ(kindsOf(setRenderSetting("spp", "9")), kEditBudget);
+    EXPECT_EQ(kindsOf(setRenderSetting("energy", "multiple")) & kEditTrees, kEditNothing);
+    EXPECT_EQ(kindsOf(setRenderSetting("sampler", "blue-noise")) & kEditTrees, kEditNothing);
+    EXPECT_EQ(kindsOf(setRenderSetting("integrator", "whitted")), kEditKernel | kEditLights);  // of other lights
+    EXPECT_EQ(kindsOf(setRenderSetting("builder", "sweep")), kEditTrees);
 }
 
 }  // namespace

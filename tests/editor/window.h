@@ -43,7 +43,7 @@ protected:
     /// Runs `raylab edit` with the arguments, with validation, and a shell script beside it that uses xdotool; returns
     /// the editor's exit code. What both print is in `log`.
     int runEditor(const std::string& arguments, const std::string& user = "") const {
-        const std::string edit = "'" + (binaryFolder() / "raylab").string() + "' edit --validation " + arguments;
+        const std::string edit = "'" + program_.string() + "' edit --validation " + arguments;
         const std::string find =
             "export WINDOW=$(timeout 20 xdotool search --sync --onlyvisible --name raylab | head -n 1)\n";
         writeFile("user.sh", user);
@@ -62,6 +62,7 @@ protected:
     }
 
     std::filesystem::path folder_;
+    std::filesystem::path program_ = binaryFolder() / "raylab";
 };
 
 }  // namespace raylab::support

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "engine/core/file.h"
+#include "ui/editor/compare.h"
 #include "ui/editor/document_files.h"
 #include "ui/editor/inspection_actions.h"
 #include "ui/editor/scene_actions.h"
@@ -21,6 +22,8 @@ using editor::GizmoSpace;
 constexpr std::array kMenus = {"File", "Edit", "View", "Help"};
 
 bool hasScene(const EditorContext& context) { return context.state.hasScene(); }
+
+bool isComparing(const EditorContext& context) { return context.states.get<Comparison>().isOn(); }
 
 bool isLocal(const EditorContext& context) { return context.gizmoSpace == GizmoSpace::local; }
 
@@ -54,6 +57,9 @@ constexpr std::array kActions = {
     Action{"Edit", "Local axes", GLFW_KEY_4, 0,
            [](EditorContext& context) { context.gizmoSpace = isLocal(context) ? GizmoSpace::world : GizmoSpace::local; }, nullptr, isLocal},
     Action{"View", "Next tracer", GLFW_KEY_TAB, 0, nextTracer, hasScene},
+    Action{"View", "Compare A with B", GLFW_KEY_B, 0, [](EditorContext& context) { context.states.get<Comparison>().toggle(context); }, hasScene, isComparing},
+    Action{"View", "Swap A and B", GLFW_KEY_B, GLFW_MOD_SHIFT, [](EditorContext& context) { context.states.get<Comparison>().swap(context); }, isComparing},
+    Action{"View", "Take B's settings", GLFW_KEY_B, GLFW_MOD_CONTROL, [](EditorContext& context) { context.states.get<Comparison>().giveToA(context); }, isComparing},
     Action{"View", "Focus selection", GLFW_KEY_F, 0, focusSelection, hasScene},
     Action{"View", "Show all", GLFW_KEY_HOME, 0, showAll, hasScene},
     Action{"View", "Copy camera", GLFW_KEY_C, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT, copyCamera, hasScene},
@@ -63,7 +69,7 @@ constexpr std::array kActions = {
     Action{"View", "Pause rendering", GLFW_KEY_P, 0,
            [](EditorContext& context) { context.session.setPaused(context.status.phase != RenderPhase::paused); }, hasScene,
            [](const EditorContext& context) { return context.status.phase == RenderPhase::paused; }},
-    Action{"View", "Reload kernels", GLFW_KEY_F5, 0, [](EditorContext& context) { context.session.reload(); }, hasScene},
+    Action{"View", "Reload kernels", GLFW_KEY_F5, 0, [](EditorContext& context) { context.session.reload(); context.states.get<Comparison>().reloadShaders(); }, hasScene},
     Action{"View", "Save view as camera", GLFW_KEY_K, GLFW_MOD_CONTROL, saveView, hasScene},
     Action{"View", "Render to PNG", GLFW_KEY_F11, 0, [](EditorContext& context) { renderToFile(context, ".png"); }, hasScene},
     Action{"View", "Render to EXR", GLFW_KEY_F11, GLFW_MOD_SHIFT, [](EditorContext& context) { renderToFile(context, ".exr"); }, hasScene},

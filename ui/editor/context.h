@@ -59,6 +59,7 @@ struct EditorContext {
     float scale = 1.0f;       ///< of the display
     double seconds = 0.0;     ///< since the frame before
     bool viewMoves = false;   ///< something keeps changing what is seen; set by who does
+    double redrawSeconds = 1.0;  ///< until another frame is due, whatever happens; set by who moves by itself
     bool showKeys = false;
     editor::GizmoMode gizmoMode = editor::GizmoMode::move;
     editor::GizmoSpace gizmoSpace = editor::GizmoSpace::world;

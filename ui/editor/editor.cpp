@@ -15,6 +15,7 @@
 #include "engine/render/camera.h"
 #include "engine/scene/import.h"
 #include "ui/editor/actions.h"
+#include "ui/editor/compare.h"
 #include "ui/editor/context.h"
 #include "ui/editor/document_files.h"
 #include "ui/editor/imgui_backend.h"
@@ -25,6 +26,7 @@
 #include "ui/editor/model/edit_surroundings.h"
 #include "ui/editor/model/merge_scene.h"
 #include "ui/editor/script.h"
+#include "ui/editor/shader_watch.h"
 #include "ui/editor/swapchain.h"
 
 namespace raylab {
@@ -44,7 +46,9 @@ public:
           imgui_(window_.get(), window_.device(), swapchain_.renderPass(), 3, window_.scale()),
           images_(window_.device(), swapchain_.renderPass()),
           background_(wakeWindow),
-          session_(options.settings.device, options.settings.validation, wakeWindow),
+          shaders_(std::make_shared<ShaderSources>(dataFolder("shaders"))),
+          session_(options.settings.device, options.settings.validation, {shaders_}, wakeWindow),
+          shaderWatch_(shaders_, wakeWindow),
           files_(std::chrono::seconds(config_.autosaveSeconds)),
           script_(options.script.empty() ? nullptr : std::make_unique<Script>(options.script)),
           context_{.state = state_,
@@ -81,15 +85,16 @@ public:
         files_.leave();
         keepConfig();
         session_.stop();
-        const uint32_t messages = session_.validationMessages() + window_.device().validationMessageCount() +
-                                  countingValidationMessages(context_);
+        const uint32_t messages = session_.validationMessages() + comparison().validationMessages() +
+                                  countingValidationMessages(context_) + window_.device().validationMessageCount();
         return messages > 0 ? ExitCode::checkFailed : ExitCode::done;
     }
 
 private:
     double waitSeconds() const {
         if (settling_ > 0) return 0.001;
-        return script_ != nullptr || context_.viewMoves || moving_ ? kFrameSeconds : kIdleSeconds;
+        return script_ != nullptr || context_.viewMoves || moving_ ? kFrameSeconds
+                                                                   : std::min(kIdleSeconds, context_.redrawSeconds);
     }
 
     /// What the frame will show.
@@ -99,7 +104,17 @@ private:
         context_.picture = session_.picture();
         context_.picked = session_.takePick();
         context_.viewMoves = false;
+        context_.redrawSeconds = kIdleSeconds;
+        if (shaderWatch_.takeChange()) reloadShaders();
+        comparison().look(context_);
         settling_ = std::max(settling_ - 1, 0);
+    }
+
+    Comparison& comparison() { return states_.get<Comparison>(); }
+
+    void reloadShaders() {
+        session_.reloadShaders();
+        comparison().reloadShaders();
     }
 
     void stepScript() {
@@ -114,9 +129,10 @@ private:
         if (!script_->step(host)) script_.reset();
     }
 
-    bool isIdle() const {
+    bool isIdle() {
         const RenderPhase phase = context_.status.phase;
-        return background_.busyWith().empty() && !moving_ && phase != RenderPhase::preparing && phase != RenderPhase::rendering;
+        return background_.busyWith().empty() && !moving_ && phase != RenderPhase::preparing && phase != RenderPhase::rendering &&
+               !comparison().isBusy();
     }
 
     void frame() {
@@ -160,7 +176,10 @@ private:
         if ((viewChanged || sceneChanged) && !isOther) sinceMove_.restart();
         moving_ = !isOther && (context_.viewMoves || sinceMove_.seconds() < kRestSeconds);
         next.moving = moving_;
-        if (!viewChanged && !sceneChanged && next.moving == requested_.moving && editor::editKinds(next.settings, requested_.settings) == 0)
+        next.wantsHits = requested_.wantsHits || comparison().mode() == CompareMode::firstHit ||
+                         !state_.document->selection().instances.empty();
+        comparison().request(context_, next, isOther);
+        if (!viewChanged && !sceneChanged && next.moving == requested_.moving && next.wantsHits == requested_.wantsHits && editor::editKinds(next.settings, requested_.settings) == 0)
             return;
         requested_ = next;
         session_.submit(std::move(next), isOther);
@@ -242,7 +261,9 @@ private:
     ImGuiBackend imgui_;
     ImagePainter images_;
     Background background_;
+    std::shared_ptr<ShaderSources> shaders_;
     RenderSession session_;
+    ShaderWatch shaderWatch_;
     FileDialog fileDialog_;
     PanelStates states_;
     DocumentFiles files_;

@@ -8,6 +8,7 @@
 #include "ui/editor/actions.h"
 #include "ui/editor/panels.h"
 #include "ui/editor/theme.h"
+#include "ui/editor/time_text.h"
 
 namespace raylab {
 namespace {
@@ -92,17 +93,6 @@ void drawSplitter(const char* name, const Box& box, bool vertical, float sign, f
     ImGui::PopStyleVar(2);
 }
 
-std::string timeText(double seconds) {
-    char text[32];
-    if (seconds < 99.5)
-        std::snprintf(text, sizeof(text), "%.0f s", seconds);
-    else if (seconds < 5940.0)
-        std::snprintf(text, sizeof(text), "%.0f min", seconds / 60.0);
-    else
-        std::snprintf(text, sizeof(text), "%.1f h", seconds / 3600.0);
-    return text;
-}
-
 std::string progressText(const RenderStatus& s) {
     char text[160];
     std::snprintf(text, sizeof(text), "%u / %u samples", s.samples, s.samplesWanted);
@@ -135,7 +125,7 @@ void drawStatus(EditorContext& context, const Box& box) {
         ImGui::SameLine();
         if (ImGui::SmallButton("Cancel##build")) context.session.cancel();
     } else if (!status.error.empty()) {
-        ImGui::TextColored(color::kError, "%s", status.error.c_str());
+        ImGui::TextColored(color::kError, "%s", status.error.substr(0, status.error.find('\n')).c_str());
     } else if (context.state.hasScene()) {
         ImGui::TextUnformatted(progressText(status).c_str());
     } else {

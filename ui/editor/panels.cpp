@@ -14,6 +14,7 @@ std::span<const Panel> panelTable() {
         Panel{"Counts", drawHeatPanel, Pane::left},
         Panel{"Inspector", drawInspectorPanel, Pane::right},
         Panel{"Render", drawRenderPanel, Pane::right},
+        Panel{"A/B", drawComparePanel, Pane::right},
         Panel{"Log", drawLogPanel, Pane::bottom},
         Panel{"Kernel", drawKernelPanel, Pane::bottom},
         Panel{"Nodes", drawNodesPanel, Pane::bottom},

@@ -22,6 +22,7 @@ void drawViewportPanel(EditorContext& context);
 void drawScenePanel(EditorContext& context);
 void drawInspectorPanel(EditorContext& context);
 void drawRenderPanel(EditorContext& context);
+void drawComparePanel(EditorContext& context);
 void drawKernelPanel(EditorContext& context);
 void drawLogPanel(EditorContext& context);
 /// The list of keys over everything else, while context.showKeys.

@@ -1,6 +1,7 @@
 #include "ui/editor/picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/image/srgb.h"
 #include "engine/render/integrators.h"
@@ -9,15 +10,34 @@
 namespace raylab {
 namespace {
 
-/// Pixels without a sample show the nearest of the backdrop.
+/// Two neighbours among `count` pixels, and how much the second counts, at a place that is `part` of the whole way.
+struct Between {
+    Between(float part, int count) {
+        const float at = std::clamp(part * static_cast<float>(count) - 0.5f, 0.0f, static_cast<float>(count - 1));
+        first = static_cast<int>(at);
+        second = std::min(first + 1, count - 1);
+        weight = at - static_cast<float>(first);
+    }
+    int first, second;
+    float weight;
+};
+
+/// Pixels without a sample show the backdrop, bilinearly.
 void fillGaps(Bitmap& mean, const Bitmap& samples, const Bitmap& backdrop) {
     if (backdrop.pixelCount() == 0) return;
-    for (int y = 0; y < mean.height; ++y)
+    const auto part = [](int i, int count) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(count); };
+    for (int y = 0; y < mean.height; ++y) {
+        const Between v(part(y, mean.height), backdrop.height);
         for (int x = 0; x < mean.width; ++x) {
             if (*samples.at(x, y) > 0.0f) continue;
-            const float* from = backdrop.at(x * backdrop.width / mean.width, y * backdrop.height / mean.height);
-            std::copy_n(from, 3, mean.at(x, y));
+            const Between u(part(x, mean.width), backdrop.width);
+            for (int c = 0; c < 3; ++c) {
+                const float top = std::lerp(backdrop.at(u.first, v.first)[c], backdrop.at(u.second, v.first)[c], u.weight);
+                const float low = std::lerp(backdrop.at(u.first, v.second)[c], backdrop.at(u.second, v.second)[c], u.weight);
+                mean.at(x, y)[c] = std::lerp(top, low, v.weight);
+            }
         }
+    }
 }
 
 }  // namespace

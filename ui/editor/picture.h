@@ -7,7 +7,7 @@
 namespace raylab {
 
 /// A film as the display wants it: by exposure and tonemap, or as it is where the integrator shows a view. Pixels
-/// without a sample are taken from `backdrop`, an earlier mean of any size; where that is empty they are black.
+/// without a sample are taken from `backdrop`, an earlier mean of any size, bilinearly; where that is empty they are black.
 Picture developPicture(const FilmImage& film, const Bitmap& backdrop, const RenderSettings& settings,
                        float sceneDiagonal);
 

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/render/film.h"
 #include "engine/render/render_settings.h"
 #include "engine/scene/needs.h"
 #include "engine/scene/scene.h"
+#include "ui/editor/hit_map.h"
 
 namespace raylab {
 
@@ -19,6 +21,7 @@ struct RenderRequest {
     uint32_t width = 0;  ///< of the picture, pixels
     uint32_t height = 0;
     bool moving = false;  ///< a quick picture now is worth more than a good one later
+    bool wantsHits = false;  ///< pictures should know what lies behind their pixels
 };
 
 enum class RenderPhase { idle, preparing, rendering, paused, done };
@@ -53,6 +56,9 @@ struct Picture {
     Camera camera;                 ///< that it was seen by
     uint32_t samples = 0;          ///< that every pixel has; 0 where some have none yet
     uint64_t number = 0;           ///< counts pictures
+    double seconds = 0.0;          ///< of rendering that are in it
+    std::shared_ptr<const FilmImage> film;  ///< that it shows; pixels without samples are black there
+    std::shared_ptr<const HitMap> hits;     ///< nullptr where it was not asked for
 };
 
 /// What lies behind a point of the picture.

@@ -6,8 +6,9 @@
 
 namespace raylab {
 
-RenderSession::RenderSession(std::string deviceSelector, bool validation, std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this, selector = std::move(deviceSelector), validation] {
+RenderSession::RenderSession(std::string deviceSelector, bool validation, RenderShare share,
+                             std::function<void()> wake)
+    : share_(std::move(share)), wake_(std::move(wake)), thread_([this, selector = std::move(deviceSelector), validation] {
           runRenderWorker(*this, selector, validation);
       }) {}
 
@@ -49,6 +50,14 @@ void RenderSession::reload() {
     changed_.notify_all();
 }
 
+void RenderSession::reloadShaders() {
+    {
+        const std::lock_guard lock(mutex_);
+        reloadShaders_ = true;
+    }
+    changed_.notify_all();
+}
+
 void RenderSession::cancel() { cancel_ = true; }
 
 RenderStatus RenderSession::status() const {
@@ -79,13 +88,13 @@ std::optional<PickResult> RenderSession::takePick() {
 
 std::optional<RenderSession::Task> RenderSession::nextTask(bool busy) {
     std::unique_lock lock(mutex_);
-    const auto hasNews = [&] { return stop_ || request_ || pick_ || reload_ || pauseChanged_; };
+    const auto hasNews = [&] { return stop_ || request_ || pick_ || reload_ || reloadShaders_ || pauseChanged_; };
     if (!busy) changed_.wait(lock, hasNews);
     if (stop_) return std::nullopt;
     cancel_ = false;
     pauseChanged_ = false;
     return Task{std::exchange(request_, std::nullopt), std::exchange(pick_, std::nullopt),
-                std::exchange(reload_, false), paused_};
+                std::exchange(reload_, false), std::exchange(reloadShaders_, false), paused_};
 }
 
 bool RenderSession::hasRequest() const {

@@ -7,16 +7,24 @@
 #include <optional>
 #include <thread>
 
+#include "engine/gpu/shader_sources.h"
 #include "ui/editor/render_request.h"
+#include "ui/editor/render_turns.h"
 
 namespace raylab {
+
+/// What sessions that render side by side have in common.
+struct RenderShare {
+    std::shared_ptr<ShaderSources> shaders;
+    std::shared_ptr<RenderTurns> turns = std::make_shared<RenderTurns>();
+};
 
 /// Renders what the viewport wants in a thread and on a device of its own. No call waits for work of that thread; what
 /// it does with a request is in render_worker.h.
 class RenderSession {
 public:
     /// `wake` is called from the thread whenever there is something new to show.
-    RenderSession(std::string deviceSelector, bool validation, std::function<void()> wake);
+    RenderSession(std::string deviceSelector, bool validation, RenderShare share, std::function<void()> wake);
     ~RenderSession();
     RenderSession(const RenderSession&) = delete;
     RenderSession& operator=(const RenderSession&) = delete;
@@ -25,8 +33,11 @@ public:
     /// useless.
     void submit(RenderRequest request, bool isOther);
     void setPaused(bool paused);
-    /// Starts over with fresh kernels: F5.
+    /// Prepares everything anew, with kernels of the sources as they are: F5.
     void reload();
+    /// Takes up what has changed of the shaders' sources. Where one does not compile, the kernel stays.
+    void reloadShaders();
+    const RenderShare& share() const { return share_; }
     /// Ends what is being prepared; the picture stays as it was.
     void cancel();
     RenderStatus status() const;
@@ -51,6 +62,7 @@ public:
         std::optional<RenderRequest> request;
         std::optional<PickTask> pick;
         bool reload = false;
+        bool reloadShaders = false;
         bool paused = false;
     };
     /// What is new, at once where `busy`, else when there is something. Nothing: the session ends.
@@ -64,6 +76,7 @@ public:
     const std::atomic<bool>& cancelled() const { return cancel_; }
 
 private:
+    RenderShare share_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
@@ -76,6 +89,7 @@ private:
     bool paused_ = false;
     bool pauseChanged_ = false;
     bool reload_ = false;
+    bool reloadShaders_ = false;
     bool stop_ = false;
     std::atomic<bool> cancel_{false};
     std::atomic<uint32_t> validationMessages_{0};

@@ -9,12 +9,14 @@
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
-#include "engine/render/camera.h"
+#include "engine/render/kernel_use.h"
 #include "engine/render/lighting.h"
+#include "engine/render/prepared_settings.h"
 #include "engine/render/ray_caster.h"
 #include "engine/render/renderer.h"
 #include "ui/editor/model/edit_kinds.h"
 #include "ui/editor/picture.h"
+#include "ui/editor/time_text.h"
 
 namespace raylab {
 namespace {
@@ -58,7 +60,8 @@ private:
     void attend(const RenderSession::Task& task) {
         if (task.paused != paused_) pause(task.paused);
         if (task.request) adopt(*task.request);
-        if (task.reload && wanted_.scene) prepare();
+        if (task.reload && wanted_.scene) reload();
+        if (task.reloadShaders && wanted_.scene && !task.reload) reloadShaders();
         if (task.pick) answerPick(*task.pick);
         if (renderer_ && rendering_ && !paused_) advance();
     }
@@ -96,11 +99,11 @@ private:
         if (touches(kEditTrees | kEditGeometry)) return prepare();
         if (!renderer_) return;
         if (touches(kEditTransforms)) return moveInstances();
-        if (touches(kEditMaterials | kEditLights | kEditEnvironment)) return updateShading();
+        if (touches(kEditMaterials | kEditLights | kEditEnvironment | kEditPrepared)) return updateShading();
         if (touches(kEditKernel)) return restart("Compiling the kernel");
         if (touches(kEditCamera) || isOtherView(before, request)) return restart("");
-        if (touches(kEditFilm)) return publish();
         if (touches(kEditBudget)) resume();
+        if (touches(kEditFilm) || request.wantsHits != before.wantsHits) publish();
     }
 
     bool isOtherView(const RenderRequest& before, const RenderRequest& request) const {
@@ -137,6 +140,7 @@ private:
     }
 
     void prepare() {
+        isPrepared_ = false;
         session_.report([](RenderStatus& status) { status.error.clear(); });
         report(RenderPhase::preparing, "Reading the environment");
         const Scene scene = settledScene();
@@ -152,12 +156,51 @@ private:
         auto prepared = std::make_shared<PreparedScene>(prepareScene(device_, scene, settings, control));
         prepared->camera = wanted_.camera;
         report(RenderPhase::preparing, "Compiling the kernel");
+        refreshSources(traversalOf(*prepared));
         auto renderer = std::make_unique<Renderer>(device_, prepared, settings);
         caster_.reset();
+        hits_.reset();
         renderer_ = std::move(renderer);
         prepared_ = std::move(prepared);
+        isPrepared_ = true;
         diagonal_ = renderer_->sceneDiagonal();
         secondsPerPixel_ = kUnknownCost;
+        describe();
+        begin();
+    }
+
+    void reload() {
+        const ShaderSources& sources = *session_.share().shaders;
+        if (!sources.missing().empty()) logWarning("F5 cannot compile kernels: " + sources.missing());
+        prepare();
+    }
+
+    /// Brings the kernels of a traversal up to their sources. True where one has become another. Throws Error where a
+    /// source does not compile.
+    bool refreshSources(const std::string& traversal) {
+        const Stopwatch watch;
+        const uint64_t before = std::exchange(shaders_, session_.share().shaders->refresh([&](const std::string& entry) {
+            return mayServe(entry, traversal);
+        }));
+        if (shaders_ == before) return false;
+        logInfo("shaders of " + traversal + " compiled anew, " + timeText(watch.seconds()));
+        return true;
+    }
+
+    /// Where a source does not compile, all stays as it was.
+    void reloadShaders() {
+        if (!isPrepared_) return prepare();
+        report(RenderPhase::preparing, "Compiling shaders");
+        if (!refreshSources(traversalOf(*prepared_))) {
+            session_.report([](RenderStatus& status) { status.error.clear(); });
+            return report(rendering_ ? RenderPhase::rendering : RenderPhase::done, "");
+        }
+        keepBackdrop();
+        report(RenderPhase::preparing, "Compiling the kernel");
+        auto renderer = std::make_unique<Renderer>(device_, prepared_, filmSettings());
+        caster_.reset();
+        hits_.reset();
+        renderer_ = std::move(renderer);
         describe();
         begin();
     }
@@ -169,6 +212,7 @@ private:
         }
         const Scene scene = settledScene();
         caster_.reset();
+        hits_.reset();
         renderer_->update(scene, {.instances = true, .meshes = {}});
         restart("");
     }
@@ -176,8 +220,8 @@ private:
     void updateShading() {
         const Scene scene = settledScene();
         caster_.reset();
-        renderer_->updateShading(scene);
-        restart("");
+        updateSettings(device_, scene, wanted_.settings, *prepared_);
+        restart("Compiling the kernel");
     }
 
     /// `meanwhile`: what takes long about it; empty where nothing does.
@@ -190,6 +234,7 @@ private:
 
     /// A film has just been started.
     void begin() {
+        session_.report([](RenderStatus& status) { status.error.clear(); });
         lastNoise_ = -1.0;
         publishedSamples_ = 0;
         resume();
@@ -211,6 +256,7 @@ private:
         bool more = true;
         const Stopwatch watch;
         do {
+            const RenderTurns::Turn turn(*session_.share().turns);
             more = renderer_->step();
         } while (wanted_.moving && more && renderer_->completeSamples() == 0 &&
                  (watch.seconds() < kPatienceSeconds || !session_.hasRequest()));
@@ -246,9 +292,13 @@ private:
 
     void publish() {
         const Stopwatch watch;
-        const FilmImage film = renderer_->snapshot();
+        const auto shown = std::make_shared<const FilmImage>(renderer_->snapshot());
+        const FilmImage& film = *shown;
         if (renderer_->completeSamples() > 1) lastNoise_ = film.estimatedRelativeError;
         auto picture = std::make_shared<Picture>(developPicture(film, backdrop_, wanted_.settings, diagonal_));
+        picture->film = shown;
+        picture->seconds = renderer_->times().render;
+        picture->hits = lookBehind(picture->width, picture->height);
         picture->camera = prepared_->camera;
         picture->samples = renderer_->completeSamples();
         picture->number = ++pictureCount_;
@@ -258,6 +308,21 @@ private:
         describeProgress(&film);
         publishInterval_ = std::max(kPublishInterval, watch.seconds() / kPublishShare);
         sincePublish_.restart();
+    }
+
+    /// What lies behind the film's pixels; nullptr where nobody asked, or while things move that a caster would have to
+    /// be made for anew each time.
+    std::shared_ptr<const HitMap> lookBehind(uint32_t width, uint32_t height) {
+        if (!wanted_.wantsHits || (wanted_.moving && !caster_)) return nullptr;
+        const Camera& camera = prepared_->camera;
+        if (!hits_ || hits_->width != width || hits_->height != height || !(hits_->camera == camera))
+            hits_ = std::make_shared<const HitMap>(traceHitMap(caster(), camera, width, height));
+        return hits_;
+    }
+
+    RayCaster& caster() {
+        if (!caster_) caster_ = std::make_unique<RayCaster>(device_, prepared_, wanted_.settings);
+        return *caster_;
     }
 
     /// What only changes with the kernel or the scene.
@@ -301,15 +366,8 @@ private:
     void answerPick(const RenderSession::PickTask& task) {
         PickResult result{.ticket = task.ticket};
         if (renderer_) {
-            if (!caster_) caster_ = std::make_unique<RayCaster>(device_, prepared_, wanted_.settings);
-            shared::FrameParams frame{};
-            constexpr uint32_t kHeight = 1024;
-            writeCamera(task.camera, static_cast<uint32_t>(std::lround(kHeight * task.aspect)), kHeight, frame);
-            const auto x = static_cast<float>(2.0 * task.x - 1.0), y = static_cast<float>(1.0 - 2.0 * task.y);
-            const glm::vec3 direction =
-                glm::normalize(frame.cameraForward + x * frame.cameraRight + y * frame.cameraUp);
-            const shared::RayData ray{task.camera.position, 0.0f, direction, 3.0e38f};
-            const shared::HitData hit = caster_->closest(std::span(&ray, 1)).front();
+            const shared::RayData ray = viewRay(task.camera, task.aspect, task.x, task.y);
+            const shared::HitData hit = caster().closest(std::span(&ray, 1)).front();
             result.hit = hit.t >= 0.0f;
             if (result.hit) {
                 result.instance = hit.instance;
@@ -329,6 +387,9 @@ private:
     std::shared_ptr<PreparedScene> prepared_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<RayCaster> caster_;
+    std::shared_ptr<const HitMap> hits_;  ///< of the last picture that knew them
+    uint64_t shaders_ = 0;                ///< state of the sources that kernels are of
+    bool isPrepared_ = false;  ///< what is wanted: the last prepare() did not throw
     bool rendering_ = false;
     bool paused_ = false;
     bool preview_ = false;           ///< the film is the first one of what was prepared

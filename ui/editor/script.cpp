@@ -13,6 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "ui/editor/compare.h"
 #include "ui/editor/script_values.h"
 
 namespace raylab {
@@ -37,6 +38,7 @@ constexpr std::array kCommands = {
     CommandRule{"print", 1, 1},          CommandRule{"screenshot", 1, 1},
     CommandRule{"resize", 2, 2},         CommandRule{"panel", 1, 1},
     CommandRule{"report-latency", 1, 1}, CommandRule{"reset-latency", 0, 0},
+    CommandRule{"compare", 1, 1},        CommandRule{"set-b", 2, 2},
     CommandRule{"quit", 0, 0},
 };
 
@@ -253,6 +255,17 @@ void Script::expandOther(const ScriptLine& line) {
             const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), w[1]);
             host.context.state.document->apply(
                 {"Set " + w[1], [&](editor::EditState& state) { setSetting(setting, state.settings, w[2]); }});
+        });
+    if (w[0] == "compare")
+        once([w](ScriptHost& host) {
+            host.context.states.get<Comparison>().setMode(host.context, findCompareMode(w[1]));
+        });
+    if (w[0] == "set-b")
+        once([w](ScriptHost& host) {
+            auto& comparison = host.context.states.get<Comparison>();
+            RenderSettings settings = comparison.settings();
+            setSetting(findSetting(renderSettingsTable(), w[1]), settings, w[2]);
+            comparison.setSettings(settings);
         });
     if (w[0] == "timeout") once([this, w](ScriptHost&) { timeout_ = numberIn(w[1]); });
     if (w[0] == "print") once([w](ScriptHost& host) { logInfo(w[1] + " = " + scriptValue(w[1], host)); });

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "ui/editor/compare.h"
 #include "ui/editor/inspection_actions.h"
 
 namespace raylab {
@@ -70,6 +71,9 @@ std::map<std::string, std::string> textsOf(const ScriptHost& host) {
             {"undo", open ? c.state.document->undoName() : ""},
             {"redo", open ? c.state.document->redoName() : ""},
             {"tracing", c.status.tracer},
+            {"compare", std::string(infoOf(c.states.get<Comparison>().mode()).name)},
+            {"tracing-b", c.states.get<Comparison>().side(true).status.tracer},
+            {"error-of-b", c.states.get<Comparison>().side(true).status.error},
             {"file", open ? c.state.document->file().filename().string() : ""}};
 }
 
@@ -80,8 +84,21 @@ std::map<std::string, double> numbersOf(const ScriptHost& host) {
     const VkExtent2D window = host.window.framebufferSize();
     const auto lines = c.log.lines();
     const auto errors = std::ranges::count_if(lines, [](const LogLine& line) { return line.level == LogLevel::error; });
-    const auto validation = host.window.device().validationMessageCount() + c.session.validationMessages();
+    const auto validation = host.window.device().validationMessageCount() + c.session.validationMessages() +
+                            c.states.get<Comparison>().validationMessages();
+    const auto& comparison = c.states.get<Comparison>();
+    const auto cost = [&](bool b) {
+        const auto interval = comparison.side(b).clock.perSample();
+        return interval ? interval->value : -1.0;
+    };
     return {{"samples", c.status.samples},
+            {"samples-b", comparison.side(true).status.samples},
+            {"cost-a", cost(false)},
+            {"cost-b", cost(true)},
+            {"error-a", comparison.side(false).error.value_or(-1.0)},
+            {"error-b", comparison.side(true).error.value_or(-1.0)},
+            {"difference", comparison.result().mode == comparison.mode() ? comparison.result().figureValue : -1.0},
+            {"wipe", static_cast<double>(comparison.wipe)},
             {"noise", c.status.relativeError},
             {"divisor", c.status.divisor},
             {"instances", open ? static_cast<double>(state.scene().instances.size()) : 0.0},

@@ -7,6 +7,7 @@
 
 #include "ui/editor/line_painter.h"
 #include "ui/editor/mesh_box.h"
+#include "ui/editor/outline.h"
 #include "ui/editor/theme.h"
 
 namespace raylab {
@@ -42,7 +43,9 @@ void drawViewOverlay(EditorContext& context) {
     const ViewRectangle& r = context.view;
     list.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
     if (context.config.showGrid) drawGrid(context, painter);
+    const bool hasOutline = !state.document->selection().instances.empty() && drawOutline(context);
     for (const uint32_t index : state.document->selection().instances) {
+        if (hasOutline) break;
         const Instance& instance = state.scene().instances[index];
         painter.box(meshBox(state.scene(), instance.mesh), instance.objectToWorld, ImGui::GetColorU32(color::kSelection),
                     1.5f);

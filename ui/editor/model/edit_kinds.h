@@ -19,7 +19,8 @@ enum SceneEditKind : uint32_t {
     kEditGeometry = 128,    ///< meshes, which instances there are, which triangles are cut out by alpha
     kEditKernel = 256,      ///< a setting that calls for another kernel or film
     kEditTrees = 512,       ///< a setting that calls for other trees, or for another tracer
-    kEditEverything = 1023,
+    kEditPrepared = 1024,   ///< a setting that the prepared scene keeps, beside those of trees and lights
+    kEditEverything = 2047,
 };
 
 /// From one rendered scene to the next.

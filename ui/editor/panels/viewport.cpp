@@ -10,6 +10,8 @@
 #include "engine/scene/bounds.h"
 #include "ui/editor/bvh_overlay.h"
 #include "ui/editor/camera_control.h"
+#include "ui/editor/compare.h"
+#include "ui/editor/compare_view.h"
 #include "ui/editor/gizmo_overlay.h"
 #include "ui/editor/heat_map.h"
 #include "ui/editor/model/edit_instances.h"
@@ -41,8 +43,10 @@ struct ViewportState {
 };
 
 /// The largest rectangle of the settings' aspect within the window.
-ViewRectangle fitPicture(const EditorContext& context) {
-    const ImVec2 at = ImGui::GetWindowPos(), room = ImGui::GetWindowSize();
+ViewRectangle fitPicture(EditorContext& context) {
+    const ImVec2 at = ImGui::GetWindowPos(), window = ImGui::GetWindowSize();
+    const bool isHalf = context.states.get<Comparison>().mode() == CompareMode::sideBySide;
+    const ImVec2 room = {isHalf ? 0.5f * window.x : window.x, window.y};
     const RenderSettings& s = context.state.settings();
     const float aspect = static_cast<float>(s.width) / static_cast<float>(s.height);
     const float width = std::min(room.x, room.y * aspect), height = width / aspect;
@@ -158,6 +162,7 @@ void showPicture(EditorContext& context, ViewportState& v) {
         context.images.setTexels(v.image, context.picture->texels, context.picture->width, context.picture->height);
         v.shown = context.picture->number;
     }
+    if (context.states.get<Comparison>().isOn()) return drawComparison(context, v.image);
     const ViewRectangle& r = context.view;
     context.images.draw(*ImGui::GetWindowDrawList(), v.image, {r.x, r.y}, {r.x + r.width, r.y + r.height}, {0.0f, 0.0f},
                         {1.0f, 1.0f});
@@ -186,7 +191,7 @@ void drawViewportPanel(EditorContext& context) {
     drawViewOverlay(context);
     keepTrees(context);
     drawBvhOverlay(context);
-    const bool onHandle = drawGizmo(context);
+    const bool onHandle = drawComparisonHandles(context) || drawGizmo(context);
     if (!onHandle) pickByPointer(context, v);
 }
 

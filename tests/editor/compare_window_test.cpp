@@ -1,0 +1,87 @@
+#include <glm/glm.hpp>
+
+#include "engine/image/image_io.h"
+#include "tests/editor/window.h"
+
+namespace raylab {
+namespace {
+
+class CompareWindowTest : public support::WindowTest {
+protected:
+    /// What the script printed of a value.
+    double printed(const std::string& name) const {
+        const std::string log = readFile("log"), mark = name + " = ";
+        const size_t at = log.find(mark);
+        return at == std::string::npos ? -1.0 : std::stod(log.substr(at + mark.size()));
+    }
+};
+
+const std::string kSmall = "cornell --depth 3 --spp 4 ";
+
+TEST_F(CompareWindowTest, ComparesEqualConfigurationsAndFindsNoDifference) {
+    EXPECT_EQ(runScript(kSmall,
+                        "wait-idle\ncompare absolute\nwait-idle\nwait-until samples-b == 4\n"
+                        "wait-until difference == 0\ncompare \"first hit\"\nwait-until difference == 0\n"
+                        "set-b tracer query\nwait-until tracing-b == query\nwait-idle\nwait-until difference < 0.001\n"
+                        "assert tracing == software\nassert errors == 0\nassert validation == 0\nquit\n"),
+              0)
+        << readFile("log");
+}
+
+TEST_F(CompareWindowTest, ComparesTwoIntegratorsInAllModes) {
+    EXPECT_EQ(
+        runScript(kSmall,
+                  "wait-idle\nkey b\nassert compare == wipe\nset-b integrator normal\nwait-idle\n"
+                  "panel A/B\nwait 0.2\nscreenshot wipe.png\ndrag v0.5 v0.5 v0.25 v0.5\nwait-until wipe < 0.3\n"
+                  "assert wipe > 0.2\ncompare checker\nwait 0.1\ncompare blink\nwait 0.8\ncompare \"side by side\"\n"
+                  "wait-idle\ncompare relative\nwait-idle\nwait-until difference > 0.1\ncompare FLIP\nwait-idle\n"
+                  "wait-until difference > 0.05\ncompare Z-score\nwait-idle\nwait-until difference > 0.5\n"
+                  "screenshot z.png\nkey b\nassert compare == off\nkey b\nassert compare == Z-score\n"
+                  "assert errors == 0\nquit\n"),
+        0)
+        << readFile("log");
+    const Bitmap window = readImage(folder_ / "wipe.png");
+    // In the middle of the view, left and right of the line: the back wall by light and by its normal, +Z: blue.
+    const float *a = window.at(590, 190), *b = window.at(640, 190);
+    EXPECT_GT(b[2], 0.8f);
+    EXPECT_LT(std::abs(a[2] - a[0]), 0.5f);
+}
+
+/// The error of an average goes with the root of the number of samples, and the cost of a sample is that of the other
+/// side: the configurations differ in --spp alone.
+TEST_F(CompareWindowTest, MeasuresErrorAndTimeOfBothSides) {
+    EXPECT_EQ(
+        runScript("cornell --depth 3 --spp 32 ",
+                  "wait-samples 1\ncompare wipe\nset-b spp 8\nwait-until samples == 32\nwait-until samples-b == 8\n"
+                  "wait-idle\nassert error-a > 0\nassert cost-a > 0\nassert cost-b > 0\n"
+                  "print error-a\nprint error-b\npanel A/B\nwait 0.2\nscreenshot figures.png\nquit\n"),
+        0)
+        << readFile("log");
+    const double ratio = printed("error-b") / printed("error-a");
+    EXPECT_NEAR(ratio, 2.0, 0.3);
+}
+
+TEST_F(CompareWindowTest, SwapsAndTakesBsSettingsAsOneStep) {
+    EXPECT_EQ(
+        runScript(
+            kSmall,
+            "wait-idle\ncompare checker\nset-b depth 7\nkey Shift+b\nassert depth == 7\nassert undo contains Swap\n"
+            "wait-idle\nset-b depth 9\nkey Ctrl+b\nassert depth == 9\nkey Ctrl+z\nassert depth == 7\n"
+            "set-b integrator nonsense\nquit\n"),
+        1)
+        << readFile("log");
+    EXPECT_NE(readFile("log").find("nonsense"), std::string::npos) << readFile("log");
+}
+
+TEST_F(CompareWindowTest, ASideThatCannotBePreparedSaysSo) {
+    EXPECT_EQ(
+        runScript(kSmall,
+                  "wait-idle\ncompare wipe\nset-b environment nowhere.hdr\nwait-until error-of-b contains nowhere.hdr\n"
+                  "wait-idle\nassert samples == 4\nset-b environment none\nwait-until error-of-b == \"\"\nwait-until "
+                  "samples-b == 4\nquit\n"),
+        0)
+        << readFile("log");
+}
+
+}  // namespace
+}  // namespace raylab
