@@ -4,6 +4,17 @@
 #include "engine/gpu/shader_module.h"
 
 namespace raylab {
+namespace {
+
+void bindKernel(VkCommandBuffer commands, const KernelLayout& layout, const Kernel& kernel,
+                std::span<const uint32_t> dynamicOffsets, const void* push) {
+    vkCmdBindPipeline(commands, kernel.bindPoint, kernel.pipeline.get());
+    vkCmdBindDescriptorSets(commands, kernel.bindPoint, layout.pipelineLayout.get(), 0, 1, &layout.set,
+                            static_cast<uint32_t>(dynamicOffsets.size()), dynamicOffsets.data());
+    vkCmdPushConstants(commands, layout.pipelineLayout.get(), layout.stages, 0, layout.pushBytes, push);
+}
+
+}  // namespace
 
 KernelLayout::KernelLayout(const Device& device, std::span<const BindingInfo> bindings, uint32_t pushBytes_,
                            VkShaderStageFlags stages_)
@@ -97,12 +108,15 @@ Kernel makeComputeKernel(const Device& device, const KernelLayout& layout, const
     return kernel;
 }
 
+void launchIndirect(VkCommandBuffer commands, const KernelLayout& layout, const Kernel& kernel,
+                    std::span<const uint32_t> dynamicOffsets, const void* push, VkBuffer arguments, size_t offsetBytes) {
+    bindKernel(commands, layout, kernel, dynamicOffsets, push);
+    vkCmdDispatchIndirect(commands, arguments, offsetBytes);
+}
+
 void launch(const Device& device, VkCommandBuffer commands, const KernelLayout& layout, const Kernel& kernel,
             std::span<const uint32_t> dynamicOffsets, const void* push, uint32_t groups) {
-    vkCmdBindPipeline(commands, kernel.bindPoint, kernel.pipeline.get());
-    vkCmdBindDescriptorSets(commands, kernel.bindPoint, layout.pipelineLayout.get(), 0, 1, &layout.set,
-                            static_cast<uint32_t>(dynamicOffsets.size()), dynamicOffsets.data());
-    vkCmdPushConstants(commands, layout.pipelineLayout.get(), layout.stages, 0, layout.pushBytes, push);
+    bindKernel(commands, layout, kernel, dynamicOffsets, push);
     if (kernel.bindPoint == VK_PIPELINE_BIND_POINT_COMPUTE) {
         vkCmdDispatch(commands, groups, 1, 1);
         return;

@@ -79,5 +79,8 @@ Kernel makeRayTracingKernel(Device& device, const KernelLayout& layout, const Ra
 /// Records the launch of groups 0 .. groups - 1. `push`: KernelLayout::pushBytes bytes.
 void launch(const Device& device, VkCommandBuffer commands, const KernelLayout& layout, const Kernel& kernel,
             std::span<const uint32_t> dynamicOffsets, const void* push, uint32_t groups);
+/// The same for a compute kernel whose groups a VkDispatchIndirectCommand counts.
+void launchIndirect(VkCommandBuffer commands, const KernelLayout& layout, const Kernel& kernel,
+                    std::span<const uint32_t> dynamicOffsets, const void* push, VkBuffer arguments, size_t offsetBytes);
 
 }  // namespace raylab

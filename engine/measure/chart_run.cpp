@@ -18,7 +18,8 @@ constexpr size_t kMostWaitingBytes = size_t{4} << 30;
 constexpr double kGrowth = 2.0;
 
 size_t bytesOf(const Renderer& renderer) {
-    return renderer.prepared().gpu->memoryBytes() + renderer.prepared().tracer->memoryBytes() + renderer.filmBytes();
+    return renderer.prepared().gpu->memoryBytes() + renderer.prepared().tracer->memoryBytes() + renderer.filmBytes() +
+           renderer.queueBytes();
 }
 
 double flipOf(const Bitmap& image, const Bitmap& reference, const RenderSettings& settings) {

@@ -7,13 +7,13 @@
 namespace raylab {
 
 /// Settings that change how long a picture takes or how it is shown, but no sample of it.
-inline constexpr std::array<std::string_view, 21> kSpeedSettings = {
+inline constexpr std::array<std::string_view, 24> kSpeedSettings = {
     "tracer",         "builder",     "layout",         "triangle",
     "leaf-size",      "bins",        "traversal-cost", "intersection-cost",
     "spatial-budget", "reinsertion", "trees",          "flatten-limit",
     "bvh-cache",      "needs",       "time-limit",     "target-error",
     "exposure",       "tonemap",     "slice-ms",       "device",
-    "validation"};
+    "validation",     "schedule",    "queue-order",    "queue-paths"};
 
 /// Settings that change the noise of a picture, but not what it converges to.
 inline constexpr std::array<std::string_view, 6> kNoiseSettings = {"spp",     "seed",         "roulette-depth",

@@ -62,10 +62,9 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightC
         buffers_.push_back(
             {b.binding, makeTexelBuffer(device, b.name, std::as_bytes(std::span(data)), b.format, b.bytes)});
     };
-    const Bounds bounds = sceneBounds(scene);
-    diagonal_ = glm::length(bounds.hi - bounds.lo);
+    bounds_ = sceneBounds(scene);
     MaterialTables materials = packMaterials(scene);
-    lights_ = packLights(scene, 0.5f * diagonal_, materials, lightConfig);
+    lights_ = packLights(scene, 0.5f * diagonal(), materials, lightConfig);
     {
         GeometryData geometry = packGeometry(scene);
         for (size_t i = 0; i < lights_.firstTrail.size(); ++i) geometry.instances[i].firstTrail = lights_.firstTrail[i];
@@ -124,7 +123,7 @@ void GpuScene::writeFrame(shared::FrameParams& frame) const {
     frame.sunDiscCount = lights_.sunDiscCount;
     frame.lightGridOrigin = lights_.gridOrigin;
     frame.lightGridStep = lights_.gridStep;
-    frame.sceneDiagonal = diagonal_;
+    frame.sceneDiagonal = diagonal();
 }
 
 size_t GpuScene::memoryBytes() const {

@@ -5,6 +5,7 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/render/gpu_data.h"
+#include "engine/scene/bounds.h"
 #include "shaders/shared/frame.h"
 
 namespace raylab {
@@ -19,9 +20,13 @@ public:
     /// The fields of lights and of the environment.
     void writeFrame(shared::FrameParams& frame) const;
     bool hasLightTree() const { return hasLightTree_; }
+    /// Of all that it shows, in world space.
+    const Bounds& bounds() const { return bounds_; }
     size_t memoryBytes() const;
 
 private:
+    float diagonal() const { return glm::length(bounds_.hi - bounds_.lo); }
+
     struct Bound {
         uint32_t binding;
         TexelBuffer texels;
@@ -31,7 +36,7 @@ private:
     uint32_t emissiveCount_ = 0;
     uint32_t punctualCount_ = 0;
     bool hasLightTree_ = false;
-    float diagonal_ = 0.0f;
+    Bounds bounds_;
 };
 
 }  // namespace raylab

@@ -155,10 +155,15 @@ shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSetting
     return frame;
 }
 
+std::vector<SpecConstant> sceneConstants(const PreparedScene& prepared) {
+    return {{shared::kSpecNeeds, prepared.kernelNeeds},
+            {shared::kSpecLightTree, prepared.gpu->hasLightTree() ? 1u : 0u}};
+}
+
 Kernel makeSceneKernel(Device& device, const PreparedScene& prepared, const KernelLayout& layout, KernelKind kind,
                        std::vector<SpecConstant> constants) {
-    constants.push_back({shared::kSpecNeeds, prepared.kernelNeeds});
-    constants.push_back({shared::kSpecLightTree, prepared.gpu->hasLightTree() ? 1u : 0u});
+    const std::vector<SpecConstant> ofScene = sceneConstants(prepared);
+    constants.insert(constants.end(), ofScene.begin(), ofScene.end());
     return prepared.tracer->makeKernel(device, layout, kind, std::move(constants));
 }
 

@@ -47,6 +47,9 @@ void bindScene(const Device& device, const PreparedScene& prepared, const Kernel
 /// Frame parameters of the scene, the camera and the settings.
 shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSettings& settings);
 
+/// What every kernel over the prepared scene is specialised to.
+std::vector<SpecConstant> sceneConstants(const PreparedScene& prepared);
+
 /// A kernel of the tracer, specialised to the prepared scene, with constants of its own.
 Kernel makeSceneKernel(Device& device, const PreparedScene& prepared, const KernelLayout& layout, KernelKind kind,
                        std::vector<SpecConstant> constants);

@@ -8,9 +8,7 @@
 #include "shaders/shared/bindings.h"
 
 namespace raylab {
-namespace {
 
-/// Place of a setting's value among its choices: the numbers of shaders/shared/frame.h are in that order.
 uint32_t choiceIndex(const RenderSettings& settings, const std::string& name) {
     const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), name);
     const std::string value = settingText(getSetting(setting, settings));
@@ -18,8 +16,6 @@ uint32_t choiceIndex(const RenderSettings& settings, const std::string& name) {
     if (found == setting.choices.end()) throw Error("--" + name + ": '" + value + "' is none of its choices");
     return static_cast<uint32_t>(found - setting.choices.begin());
 }
-
-}  // namespace
 
 std::vector<SpecConstant> renderConstants(const RenderSettings& settings) {
     return {{shared::kSpecIntegrator, findIntegrator(settings.integrator).id},

@@ -81,6 +81,9 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"exposure", &S::exposure, "stops", "doubles the brightness of PNG output for each stop", -64, 64},
         {"tonemap", &S::tonemap, "", "from radiance to PNG", 0, 0, tonemapNames()},
         {"slice-ms", &S::sliceMs, "ms", "aim of the time of one dispatch", 1, 400},
+        {"schedule", &S::schedule, "", "path: one kernel follows a path to its end, or queues of paths between kernels that trace and that shade", 0, 0, {"mega", "wavefront"}},
+        {"queue-order", &S::queueOrder, "", "wavefront: of the paths: as they come; by material before they are shaded; by the octant of their rays, or by origin and octant, before they are traced", 0, 0, {"arrival", "material", "octant", "origin"}},
+        {"queue-paths", &S::queuePaths, "paths", "wavefront: under way at a time at most, also bounded by the device's storage buffers", 16384, 2097152},
         {"device", &S::device, "", "number or part of the name of a Vulkan device (raylab devices); empty: the fastest kind"},
         {"validation", &S::validation, "", "Vulkan core and synchronisation validation; a message makes the run fail"},
     };

@@ -75,6 +75,9 @@ struct RenderSettings {
     double exposure = 0.0;
     std::string tonemap = "filmic";
     double sliceMs = 100.0;
+    std::string schedule = "mega";
+    std::string queueOrder = "arrival";
+    int64_t queuePaths = 262144;
     std::string device = "";
     bool validation = false;
 };

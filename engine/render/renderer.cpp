@@ -1,6 +1,7 @@
 #include "engine/render/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "engine/core/error.h"
@@ -41,25 +42,29 @@ uint32_t pilotSamples(const RenderSettings& settings) {
 
 constexpr BindingInfo kFilmBinding{shared::kBindFilm, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC};
 
-KernelLayout makeLayout(const Device& device, const PreparedScene& prepared) {
+/// A wavefront shades in compute shaders whatever traces.
+KernelLayout makeLayout(const Device& device, const PreparedScene& prepared, bool isWavefront) {
     std::vector<BindingInfo> bindings = sceneBindings(prepared);
     bindings.push_back(kFilmBinding);
     bindings.push_back({shared::kBindSampleRates, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
-    return KernelLayout(device, bindings, sizeof(shared::RenderPush), prepared.tracer->stages());
+    if (!isWavefront) return KernelLayout(device, bindings, sizeof(shared::RenderPush), prepared.tracer->stages());
+    for (const BindingInfo& info : Wavefront::bindings()) bindings.push_back(info);
+    return KernelLayout(device, bindings, sizeof(shared::WavefrontPush),
+                        prepared.tracer->stages() | VK_SHADER_STAGE_COMPUTE_BIT);
 }
 
 /// All that the kernel is specialised to; the size of the stack last.
 std::vector<SpecConstant> kernelConstants(const PreparedScene& prepared, const RenderSettings& settings) {
     std::vector<SpecConstant> constants = renderConstants(settings);
-    constants.push_back({shared::kSpecNeeds, prepared.kernelNeeds});
-    constants.push_back({shared::kSpecLightTree, prepared.gpu->hasLightTree() ? 1u : 0u});
+    const std::vector<SpecConstant> ofScene = sceneConstants(prepared);
+    constants.insert(constants.end(), ofScene.begin(), ofScene.end());
     constants.push_back({shared::kSpecStackSize, prepared.tracer->traceData().stackEntries});
     return constants;
 }
 
 /// Whether a kernel made with some constants does what others ask for: its stack may be deeper.
 bool covers(const std::vector<SpecConstant>& made, const std::vector<SpecConstant>& wanted) {
-    return std::equal(made.begin(), made.end() - 1, wanted.begin(), wanted.end() - 1) &&
+    return !made.empty() && std::equal(made.begin(), made.end() - 1, wanted.begin(), wanted.end() - 1) &&
            made.back().value >= wanted.back().value;
 }
 
@@ -75,7 +80,6 @@ Renderer::Renderer(Device& device, std::shared_ptr<PreparedScene> prepared, cons
       frame_(makeFrame(*prepared_, settings)),
       film_(device, frame_.width, frame_.height) {
     Stopwatch watch;
-    layout_ = makeLayout(device_, *prepared_);
     begin();
     times_.build = prepared_->tracer->buildSeconds();
     times_.upload = prepared_->tracer->uploadSeconds() + prepared_->packSeconds + watch.restart();
@@ -87,6 +91,7 @@ Renderer::Renderer(Device& device, std::shared_ptr<PreparedScene> prepared, cons
 void Renderer::begin() {
     pilotSamples_ = pilotSamples(settings_);
     if (pilotSamples_ > 0) frame_.seed ^= kPilotSeed;
+    chooseSchedule();
     bindScene(device_, *prepared_, layout_);
     uploadFrame();
     bindBuffer(device_, layout_, kFilmBinding, film_.buffer(), 0, film_.bandBytes());
@@ -95,6 +100,7 @@ void Renderer::begin() {
     bindRates(std::vector<float>(settings_.adaptive ? blockCount_ : 1, 1.0f));
     leastRate_ = 1.0;
     meanRate_ = 1.0;
+    mostRate_ = 1.0;
     firstKept_ = 0;
     nextBlock_ = 0;
     passFirst_ = 0;
@@ -106,9 +112,23 @@ void Renderer::begin() {
     times_.longestDispatch = 0.0;
 }
 
+/// The layout of the kernels by the settings' schedule, and the buffers of a wavefront, where those at hand are others.
+void Renderer::chooseSchedule() {
+    const std::optional<WavefrontPlan> plan = planWavefront(device_, *prepared_, settings_);
+    const bool fits = plan ? wavefront_ && wavefront_->plan() == *plan : !wavefront_;
+    if (fits && layout_.set != VK_NULL_HANDLE) return;
+    layout_ = makeLayout(device_, *prepared_, plan.has_value());
+    wavefront_ = plan ? std::make_unique<Wavefront>(device_, *plan, layout_) : nullptr;
+    kernelConstants_.clear();
+}
+
 void Renderer::makeKernel() {
     kernelConstants_ = kernelConstants(*prepared_, settings_);
-    kernel_ = makeSceneKernel(device_, *prepared_, layout_, KernelKind::render, renderConstants(settings_));
+    kernel_ = {};
+    if (wavefront_)
+        wavefront_->makeKernels(device_, *prepared_, layout_, renderConstants(settings_));
+    else
+        kernel_ = makeSceneKernel(device_, *prepared_, layout_, KernelKind::render, renderConstants(settings_));
     dispatch(0, 1, 0, 0);  // lavapipe compiles at the first dispatch
     lastBlockCount_ = 0;
     times_.device = 0.0;
@@ -168,7 +188,9 @@ void Renderer::finishPilot() {
     config.samples = static_cast<double>(settings_.spp) - pilotSamples_;
     config.targetError = settings_.targetError;
     const std::vector<float> rates = sampleRates(film_.read(device_), config);
-    leastRate_ = static_cast<double>(*std::min_element(rates.begin(), rates.end()));
+    const auto [least, most] = std::minmax_element(rates.begin(), rates.end());
+    leastRate_ = static_cast<double>(*least);
+    mostRate_ = static_cast<double>(*most);
     meanRate_ = std::accumulate(rates.begin(), rates.end(), 0.0) / static_cast<double>(rates.size());
     bindRates(rates);
     frame_.seed ^= kPilotSeed;
@@ -189,11 +211,26 @@ double Renderer::dispatch(uint32_t firstBlock, uint32_t blockCount, uint32_t fir
         lanes};
     const auto offset = static_cast<uint32_t>(band * film_.bandBytes());
     const double seconds = device_.run("render", [&](VkCommandBuffer commands) {
-        launch(device_, commands, layout_, kernel_, std::span(&offset, 1), &push, tileCount);
+        if (wavefront_)
+            wavefront_->record(device_, commands, layout_,
+                               {push, tileCount, pathsPerLane(sampleCount), offset, frame_.maxDepth,
+                                prepared_->gpu->bounds()});
+        else
+            launch(device_, commands, layout_, kernel_, std::span(&offset, 1), &push, tileCount);
     });
     times_.device += seconds;
     times_.longestDispatch = std::max(times_.longestDispatch, seconds);
     return seconds;
+}
+
+/// Samples of a pixel at most. Where blocks have rates, the kernel rounds their first and last in floats.
+uint32_t Renderer::pathsPerLane(uint32_t sampleCount) const {
+    return settings_.adaptive ? static_cast<uint32_t>(std::ceil(mostRate_ * sampleCount)) + 1 : sampleCount;
+}
+
+/// Blocks whose paths a wavefront holds.
+uint32_t Renderer::mostBlocks() const {
+    return wavefront_ ? wavefront_->plan().capacity / (pathsPerLane(passSamples_) * kBlockLanes) : blockCount_;
 }
 
 /// Blocks of the next dispatch: within the pass, within the film band, and about as many as a slice holds.
@@ -204,7 +241,7 @@ uint32_t Renderer::chooseBlockCount() const {
     if (lastBlockCount_ > 0) {
         const double perBlock = std::max(secondsPerBlockSample_ * passSamples_, 1e-9);
         const double fitting = std::clamp(settings_.sliceMs * 1e-3 / perBlock, 1.0, 1e9);
-        count = std::min(static_cast<uint32_t>(fitting), lastBlockCount_ * kGrowth);
+        count = std::min({static_cast<uint32_t>(fitting), lastBlockCount_ * kGrowth, mostBlocks()});
     }
     const uint32_t inTile = nextBlock_ % kBlocksPerTile;
     if (inTile != 0 || count < kBlocksPerTile) return std::min(count, kBlocksPerTile - inTile);

@@ -5,6 +5,7 @@
 #include "engine/render/film.h"
 #include "engine/render/integrators.h"
 #include "engine/render/prepared_scene.h"
+#include "engine/render/wavefront.h"
 
 namespace raylab {
 
@@ -58,13 +59,18 @@ public:
     const PreparedScene& prepared() const { return *prepared_; }
     float sceneDiagonal() const { return frame_.sceneDiagonal; }
     size_t filmBytes() const { return film_.memoryBytes(); }
+    /// States of paths and their queues; 0 where one kernel follows each path to its end.
+    size_t queueBytes() const { return wavefront_ ? wavefront_->memoryBytes() : 0; }
 
 private:
     void begin();
+    void chooseSchedule();
     void makeKernel();
     void startOver(const shared::FrameParams& frame);
     double dispatch(uint32_t firstBlock, uint32_t blockCount, uint32_t firstSample, uint32_t sampleCount);
     uint32_t chooseBlockCount() const;
+    uint32_t pathsPerLane(uint32_t sampleCount) const;
+    uint32_t mostBlocks() const;
     void chooseSampleCount();
     void uploadFrame();
     void bindRates(std::span<const float> rates);
@@ -78,14 +84,15 @@ private:
     Buffer frameBuffer_;
     TexelBuffer rates_;  ///< of blocks; none where it is not adaptive
     KernelLayout layout_;
-    Kernel kernel_;
-    std::vector<SpecConstant> kernelConstants_;  ///< that the kernel was made with
+    Kernel kernel_;  ///< none under a wavefront, which has its own
+    std::unique_ptr<Wavefront> wavefront_;
+    std::vector<SpecConstant> kernelConstants_;  ///< that the kernels were made with; empty: they are still to be made
     uint32_t blockCount_ = 0;   ///< of the image
     uint32_t nextBlock_ = 0;    ///< of the pass that is under way
     uint32_t passFirst_ = 0;    ///< first sample of it
     uint32_t pilotSamples_ = 0; ///< that go into finding the rates
     uint32_t firstKept_ = 0;    ///< sample that the film begins with
-    double leastRate_ = 1.0, meanRate_ = 1.0;
+    double leastRate_ = 1.0, meanRate_ = 1.0, mostRate_ = 1.0;
     uint32_t passSamples_ = 1;  ///< samples of it
     uint32_t lastBlockCount_ = 0;
     double secondsPerBlockSample_ = 0.0;

@@ -19,7 +19,7 @@ struct TracerInfo {
 };
 
 /// What a kernel does with the traversal.
-enum class KernelKind { render, rays };
+enum class KernelKind { render, rays, wavefront };
 
 /// A traversal backend: builds what it needs from a scene, and makes the kernels that reach it. Integrators do not know which
 /// one they run on.

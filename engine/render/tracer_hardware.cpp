@@ -250,7 +250,7 @@ VkShaderStageFlags PipelineTracer::stages() const {
 Kernel PipelineTracer::makeKernel(Device& device, const KernelLayout& layout, KernelKind kind,
                                   std::vector<SpecConstant> constants) const {
     RayTracingStages stages;
-    stages.raygen = shaderFile(kind == KernelKind::render ? "render.rgen" : "rays.rgen");
+    stages.raygen = shaderFile(kernelPrefix(kind) + ".rgen");
     stages.miss = {shaderFile("closest.rmiss"), shaderFile("shadow.rmiss")};
     stages.hit = {{shaderFile("triangle.rchit"), shaderFile("triangle.rahit"), {}},
                   {shaderFile("quadric.rchit"), shaderFile("quadric.rahit"), shaderFile("quadric.rint")}};

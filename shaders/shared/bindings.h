@@ -34,7 +34,9 @@ RAYLAB_CONST uint kBindLightTrails = 24;     // texel buffer, uvec2: trail, 1 / 
 RAYLAB_CONST uint kBindSampleRates = 25;     // texel buffer, float: samples of a block of pixels over those of all, where it is adaptive
 RAYLAB_CONST uint kBindAlbedo = 26;          // texel buffer, uvec4: directional albedos (engine/render/directional_albedo.h)
 RAYLAB_CONST uint kBindLobes = 27;           // texel buffer, uvec4: four a material (LobeData)
-RAYLAB_CONST uint kBindingCount = 28;
+RAYLAB_CONST uint kBindPaths = 30;           // storage buffer, uvec4: states of paths (shared/wavefront.h): only in the wavefront's kernels
+RAYLAB_CONST uint kBindQueues = 31;          // storage buffer, uint: their queues
+RAYLAB_CONST uint kBindingCount = 32;
 
 RAYLAB_CONST uint kTileSize = 8;                            // a workgroup renders a tile of 8 x 8 pixels
 RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;
@@ -65,6 +67,8 @@ RAYLAB_CONST uint kSpecOffset = 29;         // kOffset...
 RAYLAB_CONST uint kSpecLightTree = 30;  // 1: lights are chosen by a tree
 RAYLAB_CONST uint kSpecCameraMotion = 31;  // 1: the camera moves
 RAYLAB_CONST uint kSpecAdaptive = 32;      // 1: blocks of pixels differ in their samples
+RAYLAB_CONST uint kSpecStage = 40;         // kStage...: of the wavefront's kernels
+RAYLAB_CONST uint kSpecQueueOrder = 41;    // kOrder...
 
 // Slab tests of the software traversals.
 RAYLAB_CONST uint kSlabPadded = 0;

@@ -3,6 +3,7 @@
 // Reads one of every struct that C++ and GLSL share, by the kernels' own loads where there are any, and writes its scalars
 // in the order of their declaration. tests/unit/gpu_layout_test.cpp says what they must be.
 #include "lib/light_tree.glsl"
+#include "shared/wavefront.h"
 
 layout(local_size_x = 1) in;
 layout(push_constant) uniform PushBlock { RenderPush push; };
@@ -20,6 +21,7 @@ layout(set = 0, binding = 44, std430) readonly buffer VertexBlock { VertexData v
 layout(set = 0, binding = 45, std430) readonly buffer TextureBlock { TextureData textureData; };
 layout(set = 0, binding = 46, std430) readonly buffer EmissiveBlock { EmissiveData emissive; };
 layout(set = 0, binding = 47, std430) readonly buffer PunctualBlock { PunctualData punctual; };
+layout(set = 0, binding = 51, std430) readonly buffer WavefrontPushBlock { WavefrontPush wavefrontPush; };
 layout(set = 0, binding = 48, std430) writeonly buffer ResultBlock { uint result[]; };
 
 uint next = 0u;
@@ -259,6 +261,21 @@ void emitLights() {
     emit(punctual.probability);
 }
 
+void emitWavefront() {
+    emit(wavefrontPush.slice.firstTile);
+    emit(wavefrontPush.slice.firstRow);
+    emit(wavefrontPush.slice.firstSample);
+    emit(wavefrontPush.slice.sampleCount);
+    emit(wavefrontPush.slice.firstLane);
+    emit(wavefrontPush.slice.laneCount);
+    emit(wavefrontPush.capacity);
+    emit(wavefrontPush.lanes);
+    emit(wavefrontPush.cellOrigin);
+    emit(wavefrontPush.round);
+    emit(wavefrontPush.cellScale);
+    emit(wavefrontPush.pathsPerLane);
+}
+
 void main() {
     emitFrame();
     emitBuffers();
@@ -266,4 +283,5 @@ void main() {
     emitGeometry();
     emitMaterials();
     emitLights();
+    emitWavefront();
 }

@@ -5,6 +5,7 @@
 #include "engine/gpu/pipeline.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/scene.h"
+#include "shaders/shared/wavefront.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/paths.h"
 
@@ -58,6 +59,7 @@ struct Structs {
     shared::EmissiveData emissive;
     std::array<shared::LightNodeData, 2> lightNodes{};
     shared::PunctualData punctual;
+    shared::WavefrontPush wavefrontPush;
 };
 
 void numberFrame(Numbering& n, shared::FrameParams& f) {
@@ -115,6 +117,11 @@ void numberLights(Numbering& n, shared::EmissiveData& e, shared::LightNodeData& 
     n.assign(p.position, p.kind, p.direction, p.threshold, p.intensity, p.alias, p.shape, p.probability);
 }
 
+void numberWavefront(Numbering& n, shared::WavefrontPush& p) {
+    n.assign(p.slice.firstTile, p.slice.firstRow, p.slice.firstSample, p.slice.sampleCount, p.slice.firstLane);
+    n.assign(p.slice.laneCount, p.capacity, p.lanes, p.cellOrigin, p.round, p.cellScale, p.pathsPerLane);
+}
+
 std::vector<uint32_t> numberAll(Structs& s) {
     Numbering numbering;
     numberFrame(numbering, s.frame);
@@ -123,6 +130,7 @@ std::vector<uint32_t> numberAll(Structs& s) {
     numberGeometry(numbering, s.instances[1], s.triangle, s.vertex, s.quadric);
     numberMaterials(numbering, s.materials[1], s.lobes[1], s.phong[1], s.texture);
     numberLights(numbering, s.emissive, s.lightNodes[1], s.punctual);
+    numberWavefront(numbering, s.wavefrontPush);
     return numbering.bits();
 }
 
@@ -188,6 +196,7 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.buffer(shared::kBindCounts, s.counts);
     inputs.buffer(49, s.traceQuadric);
     inputs.buffer(50, s.quadric);
+    inputs.buffer(51, s.wavefrontPush);
     inputs.buffer(48, result);
     inputs.texels(shared::kBindInstances, s.instances);
     inputs.texels(shared::kBindMaterials, s.materials);

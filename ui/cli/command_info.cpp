@@ -7,6 +7,7 @@
 #include "engine/measure/tree_export.h"
 #include "engine/render/gpu_data.h"
 #include "engine/render/lighting.h"
+#include "engine/render/wavefront.h"
 #include "engine/scene/bounds.h"
 #include "engine/scene/import.h"
 #include "engine/scene/needs.h"
@@ -34,16 +35,21 @@ struct Info {
     SceneNeeds needs;
     BvhReport bvh;
     size_t sceneBytes = 0;
+    size_t pathBytes = 0;  ///< of a path's state under --schedule wavefront
     double importSeconds = 0.0;
 };
 
-/// What the scene takes on the device apart from the traversal's structures.
-size_t measureSceneBytes(const Scene& scene, float radius) {
+/// What the scene takes on the device apart from the traversal's structures, and what a path under way would.
+void measureMemory(Info& info) {
+    const Scene& scene = info.scene;
+    const float radius = 0.5f * glm::length(info.bounds.hi - info.bounds.lo);
     const GeometryData geometry = packGeometry(scene);
     MaterialTables materials = packMaterials(scene);
     const LightTables lights = packLights(scene, radius, materials);
     const auto bytes = [](const auto& data) { return std::as_bytes(std::span(data)).size(); };
-    return bytes(geometry.instances) + bytes(geometry.triangles) + bytes(geometry.vertices) + bytes(materials.materials) +
+    info.pathBytes = pathBytes(info.needs.mask, !lights.nodes.empty());
+    info.sceneBytes =
+        bytes(geometry.instances) + bytes(geometry.triangles) + bytes(geometry.vertices) + bytes(materials.materials) +
            bytes(materials.textures) + bytes(materials.texels) + bytes(lights.emissive) + bytes(lights.punctual) +
            bytes(lights.nodes) + bytes(lights.trails) + bytes(lights.environment) + bytes(lights.environmentAlias);
 }
@@ -60,7 +66,7 @@ Info gather(const InfoOptions& options) {
     info.quadrics = quadricCount(info.scene);
     info.needs = analyseNeeds(info.scene, treePlanConfig(config));
     info.bvh = measureBvh(info.scene, config, options.bvh ? BvhDetail::full : BvhDetail::quick);
-    info.sceneBytes = measureSceneBytes(info.scene, 0.5f * glm::length(info.bounds.hi - info.bounds.lo));
+    measureMemory(info);
     return info;
 }
 
@@ -85,6 +91,7 @@ nlohmann::ordered_json infoJson(const InfoOptions& options, const Info& info) {
             {"bounds", {{"lo", vec(info.bounds.lo)}, {"hi", vec(info.bounds.hi)}}},
             {"needs", needs},
             {"memoryBytes", info.sceneBytes + info.bvh.bytes()},
+            {"pathBytes", info.pathBytes},
             {"bvh", bvhReportJson(info.bvh)},
             {"seconds", {{"import", info.importSeconds}}},
             {"warnings", info.scene.warnings}};
@@ -103,7 +110,7 @@ void printInfo(const InfoOptions& options, const Info& info) {
     std::cout << std::setprecision(3) << "\n  bounds      (" << info.bounds.lo.x << ", " << info.bounds.lo.y << ", " << info.bounds.lo.z
               << ") to (" << info.bounds.hi.x << ", " << info.bounds.hi.y << ", " << info.bounds.hi.z << ")\n"
               << std::setprecision(1) << "  memory      " << mebibytes(info.sceneBytes) << " MiB scene + " << mebibytes(info.bvh.bytes())
-              << " MiB BVH\n"
+              << " MiB BVH; " << info.pathBytes << " bytes a path under --schedule wavefront\n"
               << bvhReportLine(info.bvh) << "\n";
     if (options.bvh) std::cout << bvhReportText(info.bvh);
     std::cout << "\nThe kernel for this scene contains\n";

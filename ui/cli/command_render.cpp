@@ -56,7 +56,7 @@ nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSett
             {"estimatedRelativeError", r.image.estimatedRelativeError},
             {"nonFinitePixels", r.image.nonFinitePixels},
             {"clampedEnergy", r.image.clampedEnergy},
-            {"memoryBytes", {{"scene", r.sceneBytes}, {"traversal", r.traceBytes}, {"film", r.filmBytes}}},
+            {"memoryBytes", {{"scene", r.sceneBytes}, {"traversal", r.traceBytes}, {"film", r.filmBytes}, {"queues", r.queueBytes}}},
             {"stoppedBy", r.stoppedBy},
             {"validationMessages", device.validationMessageCount()},
             {"output", options.output}};

@@ -70,6 +70,7 @@ RenderResult renderUntilDone(Device& device, const Scene& scene, const RenderSet
     result.sceneBytes = renderer.prepared().gpu->memoryBytes();
     result.traceBytes = renderer.prepared().tracer->memoryBytes();
     result.filmBytes = renderer.filmBytes();
+    result.queueBytes = renderer.queueBytes();
     result.sceneDiagonal = renderer.sceneDiagonal();
     return result;
 }

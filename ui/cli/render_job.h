@@ -21,6 +21,7 @@ struct RenderResult {
     size_t sceneBytes = 0;
     size_t traceBytes = 0;
     size_t filmBytes = 0;
+    size_t queueBytes = 0;  ///< of a wavefront
     std::string stoppedBy;  ///< samples, time-limit, target-error or interrupt
     float sceneDiagonal = 0.0f;
 };

@@ -354,7 +354,7 @@ private:
                     std::min(status.secondsLeft, std::max(wanted_.settings.timeLimit - times.render, 0.0));
             status.longestDispatch = times.longestDispatch;
             status.divisor = divisor_;
-            status.filmBytes = renderer_->filmBytes();
+            status.filmBytes = renderer_->filmBytes() + renderer_->queueBytes();
             if (film == nullptr) return;
             status.width = static_cast<uint32_t>(film->mean.width);
             status.height = static_cast<uint32_t>(film->mean.height);

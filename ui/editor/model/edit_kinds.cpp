@@ -57,6 +57,9 @@ constexpr std::array kSettingKinds = {
     SettingKind{"filter", kEditKernel},
     SettingKind{"filter-radius", kEditKernel},
     SettingKind{"clamp", kEditKernel},
+    SettingKind{"schedule", kEditKernel},
+    SettingKind{"queue-order", kEditKernel},
+    SettingKind{"queue-paths", kEditKernel},
     SettingKind{"device", kEditNothing},
     SettingKind{"validation", kEditNothing},
 };
