@@ -31,12 +31,12 @@ TEST_F(CompareWindowTest, ComparesEqualConfigurationsAndFindsNoDifference) {
 TEST_F(CompareWindowTest, ComparesTwoIntegratorsInAllModes) {
     EXPECT_EQ(
         runScript(kSmall,
-                  "wait-idle\nkey b\nassert compare == wipe\nset-b integrator normal\nwait-idle\n"
+                  "wait-idle\nkey v\nassert compare == wipe\nset-b integrator normal\nwait-idle\n"
                   "panel A/B\nwait 0.2\nscreenshot wipe.png\ndrag v0.5 v0.5 v0.25 v0.5\nwait-until wipe < 0.3\n"
                   "assert wipe > 0.2\ncompare checker\nwait 0.1\ncompare blink\nwait 0.8\ncompare \"side by side\"\n"
                   "wait-idle\ncompare relative\nwait-idle\nwait-until difference > 0.1\ncompare FLIP\nwait-idle\n"
                   "wait-until difference > 0.05\ncompare Z-score\nwait-idle\nwait-until difference > 0.5\n"
-                  "screenshot z.png\nkey b\nassert compare == off\nkey b\nassert compare == Z-score\n"
+                  "screenshot z.png\nkey v\nassert compare == off\nkey v\nassert compare == Z-score\n"
                   "assert errors == 0\nquit\n"),
         0)
         << readFile("log");
@@ -65,8 +65,8 @@ TEST_F(CompareWindowTest, SwapsAndTakesBsSettingsAsOneStep) {
     EXPECT_EQ(
         runScript(
             kSmall,
-            "wait-idle\ncompare checker\nset-b depth 7\nkey Shift+b\nassert depth == 7\nassert undo contains Swap\n"
-            "wait-idle\nset-b depth 9\nkey Ctrl+b\nassert depth == 9\nkey Ctrl+z\nassert depth == 7\n"
+            "wait-idle\ncompare checker\nset-b depth 7\nkey Shift+v\nassert depth == 7\nassert undo contains Swap\n"
+            "wait-idle\nset-b depth 9\nkey Alt+v\nassert depth == 9\nkey Ctrl+z\nassert depth == 7\n"
             "set-b integrator nonsense\nquit\n"),
         1)
         << readFile("log");
