@@ -84,9 +84,9 @@ std::vector<FigurePair> compareBuilds(const MeasuredBuild& a, const MeasuredBuil
     std::vector<FigurePair> rows = {
         {"SAH", "", "expected cost of a long ray through all trees", {}, {}},
         {"EPO", "", "end-point overlap of the largest tree", {}, {}},
-        {"cost of a view ray", "", "inner nodes and primitives that rays of this view meet, times their costs", {}, {}},
-        {"boxes", "a ray", "tested by rays of this view", {}, {}},
-        {"primitives", "a ray", "tested by rays of this view", {}, {}},
+        {"ray cost", "", "inner nodes and primitives that rays of this view meet, times their costs", {}, {}},
+        {"boxes", "a ray", "tested, by rays of this view", {}, {}},
+        {"primitives", "a ray", "tested, by rays of this view", {}, {}},
         {"memory", "MiB", "nodes in their layout, triangle records, instances", {}, {}},
         {"build", "ms", "of the binary trees", {}, {}},
         {"layout", "ms", "from the binary trees to the layout", {}, {}},

@@ -121,6 +121,13 @@ std::string figureText(double value) {
     return text;
 }
 
+void rightText(const std::string& text) {
+    ImGui::SameLine();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
+    ImGui::TextColored(color::kDim, "%s", text.c_str());
+}
+
 void dimText(const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
     ImGui::TextWrapped("%s", text.c_str());

@@ -30,6 +30,9 @@ std::string countText(size_t count);
 /// With three significant digits.
 std::string figureText(double value);
 
+/// Text in the dim colour behind the item drawn last, at the right edge.
+void rightText(const std::string& text);
+
 /// Text in the dim colour, wrapped at the window's edge.
 void dimText(const std::string& text);
 

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "ui/editor/bvh_overlay.h"
-#include "ui/editor/panel_parts.h"
 #include "ui/editor/inspection_panels.h"
+#include "ui/editor/panel_parts.h"
 #include "ui/editor/theme.h"
 
 namespace raylab {
@@ -89,11 +89,10 @@ std::string boxesText(const BvhState& state) {
 void drawBoxSection(BvhState& state, const TreeInspection& trees) {
     ImGui::Checkbox("Boxes over the picture", &state.showBoxes);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("A click in the picture selects a leaf; F frames what is selected");
+    ImGui::Checkbox("leaves only", &state.filter.leavesOnly);
     const std::string depths =
         "depth " + std::to_string(state.filter.depthMin) + " to " + std::to_string(state.filter.depthMax);
-    ImGui::TextUnformatted(depths.c_str());
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("leaves only").x - 18.0f);
-    ImGui::Checkbox("leaves only", &state.filter.leavesOnly);
+    rightText(depths);
     rangeSlider("depth", state.filter.depthMin, state.filter.depthMax, 0, deepest(trees));
     drawColors(state);
     if (state.showBoxes) dimText(boxesText(state));

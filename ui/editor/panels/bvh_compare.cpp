@@ -38,7 +38,8 @@ void drawDifference(const FigurePair& row) {
     const auto difference = row.difference();
     if (!difference) return;
     char text[32];
-    std::snprintf(text, sizeof(text), "%+.1f %%", 100.0 * *difference);
+    const double percent = 100.0 * *difference;
+    std::snprintf(text, sizeof(text), std::abs(percent) < 99.5 ? "%+.1f %%" : "%+.0f %%", percent);
     const bool isSame = std::abs(*difference) < kSame;
     ImGui::TextColored(isSame              ? color::kDim
                        : *difference < 0.0 ? color::kGood
@@ -46,7 +47,7 @@ void drawDifference(const FigurePair& row) {
                        "%s", isSame ? "same" : text);
 }
 
-void drawTable(const BvhState& state) {
+void drawTableRows(const BvhState& state) {
     if (!ImGui::BeginTable("difference", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
     for (const char* title : {"A", "B", "B to A"}) ImGui::TableSetupColumn(title);
@@ -65,6 +66,14 @@ void drawTable(const BvhState& state) {
         drawDifference(row);
     }
     ImGui::EndTable();
+}
+
+/// Narrow: the panel is.
+void drawTable(const BvhState& state) {
+    const ImVec2 padding = ImGui::GetStyle().CellPadding;
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {0.5f * padding.x, padding.y});
+    drawTableRows(state);
+    ImGui::PopStyleVar();
 }
 
 }  // namespace

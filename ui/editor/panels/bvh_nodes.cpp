@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "ui/editor/bvh_overlay.h"
-#include "ui/editor/panel_parts.h"
 #include "ui/editor/inspection_panels.h"
+#include "ui/editor/panel_parts.h"
 #include "ui/editor/panels/bvh.h"
 #include "ui/editor/ray_stepper.h"
 #include "ui/editor/theme.h"
@@ -164,7 +164,7 @@ void drawNodesPanel(EditorContext& context) {
     table.wanted.trees = state.builds[state.shown].trees;
     drawTreeChoice(state, table);
     ImGui::SameLine();
-    if (ImGui::SmallButton("Export all as CSV")) exportNodes(context);
+    if (ImGui::Button("Export all as CSV")) exportNodes(context);
     keepRows(state, table);
     drawRows(state, table);
 }

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "ui/editor/bvh_overlay.h"
-#include "ui/editor/panel_parts.h"
 #include "ui/editor/inspection_panels.h"
+#include "ui/editor/panel_parts.h"
 #include "ui/editor/panels/bvh.h"
 #include "ui/editor/ray_stepper.h"
 #include "ui/editor/theme.h"
@@ -108,6 +108,7 @@ void drawStepDetails(const RaySteps& ray) {
     ImGui::EndChild();
 }
 
+/// Which of the rays, and where it ends.
 void drawBounces(RaySteps& ray) {
     for (size_t i = 0; i < ray.bounces.size() && ray.bounces.size() > 1; ++i) {
         const std::string name = i == 0 ? "view ray" : "bounce " + std::to_string(i);
@@ -117,11 +118,22 @@ void drawBounces(RaySteps& ray) {
         }
         ImGui::SameLine();
     }
-    const bool hits = ray.walk().hit.has_value();
-    ImGui::BeginDisabled(!hits);
-    if (ImGui::SmallButton("mirror bounce")) bounceRay(ray, BounceKind::mirror);
+    const RayWalk& walk = ray.walk();
+    const std::string end = walk.hit ? "hits at t " + distanceText(walk.hit->t) : "misses";
+    ImGui::TextColored(color::kDim, "%s", end.c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("from %s\nto %s", vectorText(walk.ray.origin).c_str(),
+                          vectorText(walk.ray.direction).c_str());
+}
+
+void drawBounceButtons(RaySteps& ray) {
     ImGui::SameLine();
-    if (ImGui::SmallButton("diffuse bounce")) bounceRay(ray, BounceKind::diffuse);
+    ImGui::BeginDisabled(!ray.walk().hit.has_value());
+    if (ImGui::Button("Mirror")) bounceRay(ray, BounceKind::mirror);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The next ray: mirrored about the normal");
+    ImGui::SameLine();
+    if (ImGui::Button("Diffuse")) bounceRay(ray, BounceKind::diffuse);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The next ray: a random diffuse bounce");
     ImGui::EndDisabled();
 }
 
@@ -131,7 +143,7 @@ void drawStepButtons(RaySteps& ray) {
     ImGui::SameLine();
     if (ImGui::ArrowButton("back", ImGuiDir_Left)) stepRay(ray, -1);
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11.0f);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9.0f);
     if (ImGui::SliderInt("##step", &shown, 1, std::max(last, 1), ("step %d of " + std::to_string(last)).c_str(),
                          ImGuiSliderFlags_AlwaysClamp))
         ray.step = static_cast<size_t>(shown - 1);
@@ -146,7 +158,7 @@ void drawRayPanel(EditorContext& context) {
     lookAtTrees(context);
     auto& state = context.states.get<BvhState>();
     RaySteps& ray = state.ray;
-    if (ImGui::SmallButton(ray.picks ? "Click in the picture ..." : "Pick a ray")) ray.picks = !ray.picks;
+    if (ImGui::Button(ray.picks ? "Click in the picture ..." : "Pick a ray")) ray.picks = !ray.picks;
     if (ray.bounces.empty()) {
         dimText(
             "Walks a ray through the trees, node by node: R, or the button, then a click in the picture. "
@@ -154,20 +166,16 @@ void drawRayPanel(EditorContext& context) {
         return;
     }
     drawStepButtons(ray);
+    drawBounceButtons(ray);
     ImGui::SameLine();
-    if (ImGui::SmallButton("Export")) exportWalk(context);
+    if (ImGui::Button("Export")) exportWalk(context);
     ImGui::SameLine();
-    if (ImGui::SmallButton("Clear")) {
+    if (ImGui::Button("Clear")) {
         ray.bounces.clear();
         return;
     }
-    drawBounces(ray);
     ImGui::SameLine();
-    const WalkRay& from = ray.walk().ray;
-    ImGui::TextColored(color::kDim, "%s",
-                       ray.walk().hit ? ("hits at t " + distanceText(ray.walk().hit->t)).c_str() : "misses");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("from %s\nto %s", vectorText(from.origin).c_str(), vectorText(from.direction).c_str());
+    drawBounces(ray);
     if (ray.walk().steps.empty()) return;
     drawSteps(ray);
     drawStepDetails(ray);

@@ -45,8 +45,7 @@ void drawRange(HeatState& heat) {
     if (ImGui::Checkbox("automatic range", &heat.autoRange) && heat.autoRange) heat.shown.reset();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("From the least count to that which 99 %% of the rays do not exceed");
     const std::string range = countText(heat.lo) + " to " + countText(heat.hi);
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(range.c_str()).x);
-    ImGui::TextColored(color::kDim, "%s", range.c_str());
+    rightText(range);
     if (rangeSlider("range", heat.lo, heat.hi, 0, std::max(heat.summary.most, 1u))) heat.autoRange = false;
     colorMapCombo("##map", heat.map);
     colorBar(heat.map, countText(heat.lo), countText(heat.hi));
