@@ -85,7 +85,7 @@ void drawRatio(const std::optional<double>& a, const std::optional<double>& b) {
     ImGui::TableNextColumn();
     if (!a || !b || !(*a > 0.0) || !(*b > 0.0)) return ImGui::TextColored(color::kDim, "-");
     const double ratio = *b / *a;
-    ImGui::TextColored(ratio < 0.98 ? color::kGood : ratio > 1.02 ? color::kWarning : color::kDim, "%.3g", ratio);
+    ImGui::TextColored(ratio < 0.98 ? color::kGood : ratio > 1.02 ? color::kWarning : color::kDim, "%.2g", ratio);
 }
 
 void drawFigure(const char* name, const std::string& a, const std::string& b) {
