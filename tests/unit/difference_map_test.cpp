@@ -53,14 +53,14 @@ TEST(DifferenceMap, ScoresOfEqualEstimatorsAreNormal) {
 
 /// deviation / sqrt(samples) over sqrt(mean^2 + 0.01).
 TEST(DifferenceMap, NoiseIsTheErrorAgainstTheTruth) {
-    const FilmImage film = normalFilm(300, 200, 16, 1.0, 0.5, 20261126);
-    const double wanted = 0.125 / std::sqrt(1.01);
-    EXPECT_NEAR(relativeNoise(film), wanted, 0.02 * wanted);
+    const FilmImage film = normalFilm(300, 200, 16, 1.0, 0.1, 20261126);
+    const double wanted = 0.025 / std::sqrt(1.01);
+    EXPECT_NEAR(relativeNoise(film), wanted, 0.005 * wanted);
     Bitmap truth(300, 200, 3);
     for (float& value : truth.pixels) value = 1.0f;
     const double measured = std::sqrt(compareImages(film.mean, truth).relMse);
     // The root of a mean of n squares of normal variables has the relative error sqrt(1 / (2 n)).
-    EXPECT_NEAR(relativeNoise(film), measured, 0.02 * wanted + 4.0 * wanted * std::sqrt(0.5 / (3.0 * 300.0 * 200.0)));
+    EXPECT_NEAR(relativeNoise(film), measured, 0.005 * wanted + 4.0 * wanted * std::sqrt(0.5 / (3.0 * 300.0 * 200.0)));
 }
 
 }  // namespace

@@ -97,7 +97,10 @@ private:
                                              editKinds(before.settings, request.settings);
         const auto touches = [kinds](uint32_t mask) { return (kinds & mask) != 0; };
         if (touches(kEditTrees | kEditGeometry)) return prepare();
-        if (!renderer_) return;
+        if (!renderer_) {  // the first request has failed or was cancelled
+            if (kinds != kEditNothing) prepare();
+            return;
+        }
         if (touches(kEditTransforms)) return moveInstances();
         if (touches(kEditMaterials | kEditLights | kEditEnvironment | kEditPrepared)) return updateShading();
         if (touches(kEditKernel)) return restart("Compiling the kernel");

@@ -58,12 +58,13 @@ void drawButtons(EditorContext& context, Comparison& comparison) {
     if (button("B as A", "B's settings become those of A")) comparison.copyFromA(context);
 }
 
+/// In milliseconds.
 std::string perSampleText(const Side& side) {
     const auto interval = side.clock.perSample();
     if (!interval) return "-";
-    const double half = 0.5 * (interval->high - interval->low);
-    if (interval->value >= 1.0) return format("%.3g +- %.1g s", interval->value, half);
-    return format("%.3g +- %.1g ms", 1e3 * interval->value, 1e3 * half);
+    const double value = 1e3 * interval->value, half = 0.5e3 * (interval->high - interval->low);
+    const int digits = half >= 1.0 ? 0 : half >= 0.1 ? 1 : 2;
+    return format("%.*f \u00b1 %.*f", digits, value, digits, half);
 }
 
 std::string stateText(const RenderStatus& status) {
@@ -84,7 +85,7 @@ void drawRatio(const std::optional<double>& a, const std::optional<double>& b) {
     ImGui::TableNextColumn();
     if (!a || !b || !(*a > 0.0) || !(*b > 0.0)) return ImGui::TextColored(color::kDim, "-");
     const double ratio = *b / *a;
-    ImGui::TextColored(ratio < 0.98 ? color::kGood : ratio > 1.02 ? color::kWarning : color::kDim, "%.3g x", ratio);
+    ImGui::TextColored(ratio < 0.98 ? color::kGood : ratio > 1.02 ? color::kWarning : color::kDim, "%.2g", ratio);
 }
 
 void drawFigure(const char* name, const std::string& a, const std::string& b) {
@@ -104,11 +105,14 @@ std::optional<double> costOf(const Side& side) {
 
 void drawFigures(const Comparison& comparison) {
     if (!ImGui::BeginTable("figures", 4, ImGuiTableFlags_SizingStretchProp)) return;
-    for (const char* name : {"", "A", "B", "B / A"}) ImGui::TableSetupColumn(name);
+    ImGui::TableSetupColumn("", 0, 0.30f);
+    ImGui::TableSetupColumn("A", 0, 0.28f);
+    ImGui::TableSetupColumn("B", 0, 0.28f);
+    ImGui::TableSetupColumn("B / A", 0, 0.17f);
     ImGui::TableHeadersRow();
     const Side &a = comparison.side(false), &b = comparison.side(true);
     drawFigure("samples", stateText(a.status), stateText(b.status));
-    drawFigure("a sample", perSampleText(a), perSampleText(b));
+    drawFigure("ms / sample", perSampleText(a), perSampleText(b));
     drawRatio(costOf(a), costOf(b));
     drawFigure("rendering", timeText(a.status.seconds), timeText(b.status.seconds));
     drawFigure("noise", percentText(a.status.relativeError), percentText(b.status.relativeError));
@@ -120,16 +124,13 @@ void drawFigures(const Comparison& comparison) {
 
 void drawReference(EditorContext& context, Comparison& comparison, ComparePanel& panel) {
     const bool grows = comparison.reference() == CompareReference::growing;
-    ImGui::TextColored(color::kDim, "error against");
-    ImGui::SameLine();
-    if (ImGui::RadioButton("the better side", grows)) comparison.growReference();
+    ImGui::TextColored(color::kDim, "errors are against");
+    if (ImGui::RadioButton("the better side's mean, growing", grows)) comparison.growReference();
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip(
             "The mean of the side that is less noisy by now, as it grows.\nThat side's own error is its noise.");
-    ImGui::SameLine();
-    if (ImGui::RadioButton("what is kept", !grows)) comparison.keepReference();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Keeps the mean of the better side as it is now");
-    if (!grows) ImGui::TextWrapped("%s", comparison.referenceName().c_str());
+    if (ImGui::RadioButton("its mean as it is now, kept", !grows)) comparison.keepReference();
+    if (!grows) ImGui::TextColored(color::kDim, "    %s", comparison.referenceName().c_str());
     ImGui::SetNextItemWidth(-1.0f);
     if (ImGui::InputTextWithHint("##reference", "or an image file of the viewport's size", &panel.referencePath,
                                  ImGuiInputTextFlags_EnterReturnsTrue) &&
@@ -154,7 +155,7 @@ void drawChart(const Comparison& comparison) {
         series.color = ImGui::GetColorU32(b ? color::kAccent : color::kText);
         for (const ErrorPoint& point : comparison.side(b).history)
             series.points.push_back({point.seconds, point.error});
-        series.hasMarkers = false;
+        series.hasMarkers = series.points.size() < 3;
         spec.series.push_back(std::move(series));
     }
     drawPlot(spec, {ImGui::GetContentRegionAvail().x, 0.55f * ImGui::GetContentRegionAvail().x});
