@@ -177,7 +177,7 @@ TEST_F(WavefrontTest, SlicesDoNotShow) {
 
 /// A renderer that goes from one schedule to the other and back renders what a new one does.
 TEST_F(WavefrontTest, AScheduleCanChange) {
-    Scene scene = variousScene();
+    Scene scene = plainScene();
     RenderSettings settings = oddImage();
     settleEnvironment(scene, settings);
     Renderer renderer(device_, scene, settings);
