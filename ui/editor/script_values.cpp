@@ -65,6 +65,7 @@ std::map<std::string, std::string> textsOf(const ScriptHost& host) {
     const bool open = c.state.hasScene();
     return {{"phase", phaseName(c.status.phase)},
             {"error", c.status.error},
+            {"recovery", c.status.recovery},
             {"job", c.background.busyWith()},
             {"undo", open ? c.state.document->undoName() : ""},
             {"redo", open ? c.state.document->redoName() : ""},
@@ -79,7 +80,7 @@ std::map<std::string, double> numbersOf(const ScriptHost& host) {
     const VkExtent2D window = host.window.framebufferSize();
     const auto lines = c.log.lines();
     const auto errors = std::ranges::count_if(lines, [](const LogLine& line) { return line.level == LogLevel::error; });
-    const auto validation = host.window.device().validationMessageCount() + c.session.validationMessages();
+    const auto validation = host.window.validationMessageCount() + c.session.validationMessages();
     return {{"samples", c.status.samples},
             {"noise", c.status.relativeError},
             {"divisor", c.status.divisor},

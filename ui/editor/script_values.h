@@ -8,7 +8,7 @@
 namespace raylab {
 
 /// What a check may ask for: samples, noise, divisor, phase, instances, selected, undo-steps, unsaved, file, error,
-/// job, window-width, window-height, view-width, view-height, picture-contrast (standard deviation of the picture's
+/// recovery, job, window-width, window-height, view-width, view-height, picture-contrast (standard deviation of the picture's
 /// green, 0 to 127), camera-x, camera-y, camera-z, target-x, target-y, target-z, errors (lines of the log), validation,
 /// latency-p50, latency-p99, latency-worst (milliseconds), or the name of a setting. Throws Error where there is no
 /// such value.
