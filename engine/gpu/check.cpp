@@ -1,7 +1,5 @@
 #include "engine/gpu/check.h"
 
-#include "engine/core/error.h"
-
 namespace raylab {
 
 std::string vulkanResultName(VkResult result) {
@@ -28,7 +26,7 @@ void check(VkResult result, const char* what) {
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
         throw Error(message + "; the scene or the image does not fit into the device's memory");
     if (result == VK_ERROR_DEVICE_LOST)
-        throw Error(message + "; the driver gave up on the device", ExitCode::internalError);
+        throw DeviceLost(message + "; the driver gave up on the device: choose another --device, or a smaller --slice-ms");
     throw Error(message, ExitCode::internalError);
 }
 

@@ -11,6 +11,8 @@
 #include "engine/core/log.h"
 #include "engine/gpu/check.h"
 #include "engine/gpu/instance.h"
+#include "engine/gpu/simulated_failure.h"
+#include "engine/gpu/submit.h"
 
 namespace raylab {
 namespace {
@@ -94,6 +96,7 @@ void Device::destroy() {
         fence_ = {};
         commandPool_ = {};
         vkDestroyDevice(device_, nullptr);
+        forgetSimulatedLoss(device_);
         device_ = VK_NULL_HANDLE;
     }
     if (messenger_ != VK_NULL_HANDLE) destroyMessenger(instance_, messenger_);
@@ -237,12 +240,12 @@ double Device::run(const char* label, const std::function<void(VkCommandBuffer)>
     if (hasTimestamps_) vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps_.get(), 1);
     check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
 
-    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
+    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
     const VkFence fence = fence_.get();
     const auto start = std::chrono::steady_clock::now();
-    check(vkQueueSubmit(queue_, 1, &submit, fence), "vkQueueSubmit");
+    submit(*this, label, info, fence);
     check(vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     check(vkResetFences(device_, 1, &fence), "vkResetFences");

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
+#include "engine/gpu/check.h"
 #include "engine/render/camera.h"
 #include "engine/render/device_defaults.h"
 #include "engine/render/prepared_settings.h"
@@ -38,6 +39,8 @@ void buildTracer(Device& device, const Scene& scene, const RenderSettings& setti
                     ExitCode::noDevice);
     try {
         buildWith(settings.tracer, device, scene, settings, control, prepared);
+    } catch (const DeviceLost&) {
+        throw;  // nothing works on that device any more
     } catch (const Error& error) {
         if (settings.tracer == kFallbackTracer) throw;
         logWarning("--tracer " + settings.tracer + " failed (" + error.what() + "); the software tracer takes over");

@@ -4,7 +4,10 @@
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <map>
+#include <memory>
+#include <string_view>
 
 #include "engine/core/error.h"
 
@@ -30,18 +33,44 @@ private:
     std::map<std::string, std::span<const std::byte>> files_;
 };
 
-/// The disk, remembering what was not found there.
+/// Blanks out what stands before a library's first material, and says whether that was more than comments: Assimp
+/// (5.2.5) writes a statement there through a null pointer.
+bool blankOrphans(std::span<uint8_t> text) {
+    bool orphans = false;
+    for (size_t line = 0; line < text.size();) {
+        const auto rest = std::string_view(reinterpret_cast<const char*>(text.data()), text.size()).substr(line);
+        const std::string_view whole = rest.substr(0, rest.find('\n'));
+        const size_t start = std::min(whole.find_first_not_of(" \t\r"), whole.size());
+        if (whole.substr(start).starts_with("newmtl")) return orphans;
+        orphans = orphans || (start < whole.size() && whole[start] != '#');
+        std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(line), whole.size(), uint8_t{' '});
+        line += whole.size() + 1;
+    }
+    return orphans;
+}
+
+/// The disk, remembering what was not found there; material libraries (whatever a scene names) begin with a material.
 class RecordingDisk : public Assimp::DefaultIOSystem {
 public:
-    explicit RecordingDisk(std::vector<std::string>& missing) : missing_(missing) {}
+    RecordingDisk(std::string scene, FileNotes& notes) : scene_(std::move(scene)), notes_(notes) {}
     Assimp::IOStream* Open(const char* path, const char* mode) override {
         Assimp::IOStream* stream = DefaultIOSystem::Open(path, mode);
-        if (!stream) missing_.emplace_back(path);
-        return stream;
+        if (!stream) notes_.missing.emplace_back(path);
+        return stream && path != scene_ ? libraryOf(stream, path) : stream;
     }
 
 private:
-    std::vector<std::string>& missing_;
+    Assimp::IOStream* libraryOf(Assimp::IOStream* stream, const char* path) {
+        const size_t size = stream->FileSize();
+        auto text = std::make_unique<uint8_t[]>(size);
+        const size_t read = stream->Read(text.get(), 1, size);
+        DefaultIOSystem::Close(stream);
+        if (blankOrphans({text.get(), read})) notes_.orphans = path;
+        return new Assimp::MemoryIOStream(text.release(), read, true);
+    }
+
+    std::string scene_;
+    FileNotes& notes_;
 };
 
 std::string shortened(std::string message) {
@@ -68,8 +97,8 @@ const aiScene& read(Assimp::Importer& importer, const std::string& name, const f
 
 }  // namespace
 
-const aiScene& readSceneFile(Assimp::Importer& importer, const fs::path& path, std::vector<std::string>& missing) {
-    importer.SetIOHandler(new RecordingDisk(missing));  // the importer owns it
+const aiScene& readSceneFile(Assimp::Importer& importer, const fs::path& path, FileNotes& notes) {
+    importer.SetIOHandler(new RecordingDisk(path.string(), notes));  // the importer owns it
     return read(importer, path.string(), path);
 }
 

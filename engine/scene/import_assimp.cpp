@@ -53,9 +53,12 @@ void placeAiNodes(const aiScene& source, SceneDraft& draft) {
 }
 
 /// Assimp tries further names beside a missing material library; one sentence is enough.
-void reportMissing(const std::vector<std::string>& missing, std::vector<std::string>& warnings) {
-    if (!missing.empty())
-        warnings.push_back("material library " + missing.front() + " was not found; its materials are grey");
+void reportNotes(const FileNotes& notes, std::vector<std::string>& warnings) {
+    if (!notes.missing.empty())
+        warnings.push_back("material library " + notes.missing.front() + " was not found; its materials are grey");
+    if (!notes.orphans.empty())
+        warnings.push_back("material library " + notes.orphans +
+                           " has statements before its first newmtl, which are left out");
 }
 
 }  // namespace
@@ -63,10 +66,10 @@ void reportMissing(const std::vector<std::string>& missing, std::vector<std::str
 Scene importThroughAssimp(const std::filesystem::path& path, const std::string& extension) {
     Assimp::Importer importer;
     SceneDraft draft;
-    std::vector<std::string> missing;
+    FileNotes notes;
     if (extension == ".ply") validatePly(path);
-    const aiScene& source = readSceneFile(importer, path, missing);
-    reportMissing(missing, draft.scene.warnings);
+    const aiScene& source = readSceneFile(importer, path, notes);
+    reportNotes(notes, draft.scene.warnings);
     readPhongMaterials(source, path, draft.requests, draft.scene);
     convertMeshes(source, optionsFor(extension), draft);
     placeAiNodes(source, draft);

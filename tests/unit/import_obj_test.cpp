@@ -39,6 +39,17 @@ TEST(ImportObj, KdAloneIsLambertian) {
 }
 
 /// Walter et al. 2007: alpha = sqrt(2 / (Ns + 2)); the material stores its square root.
+/// Found by ImportFuzz: Assimp wrote the shininess of no material through a null pointer.
+TEST(ImportObj, StatementsBeforeTheFirstMaterialAreLeftOut) {
+    const ScratchFolder folder;
+    folder.write("a.mtl", "# made by hand\nNs 20\n  d 0.5\nnewmtl m\nKd 0.1 0.2 0.3\n");
+    const Scene scene = importScene(folder.write("a.obj", "mtllib a.mtl\nusemtl m\n" + std::string(kTriangle)));
+    EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_TRUE(anyContains(scene.warnings, "before its first newmtl")) << joined(scene.warnings);
+    folder.write("a.mtl", "\n# a comment alone\nnewmtl m\nKd 0.1 0.2 0.3\n");
+    EXPECT_TRUE(importScene(folder.path() / "a.obj").warnings.empty());
+}
+
 TEST(ImportObj, KsAndNsAreAGlossyCoat) {
     const Material material = materialOf("Kd 0.5 0.5 0.5\nKs 0.2 0.4 0.3\nNs 98\nNi 1.4\nillum 2\n");
     EXPECT_FLOAT_EQ(material.specular, 0.4f);

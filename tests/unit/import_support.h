@@ -152,7 +152,7 @@ inline void expectNear(glm::vec3 a, glm::vec3 b, float tolerance = 1e-6f) {
 /// Every index exists and every number is finite: what importScene promises.
 inline void expectSound(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
-        ASSERT_FALSE(mesh.triangles.empty()) << mesh.name;
+        ASSERT_FALSE(mesh.triangles.empty() && mesh.quadrics.empty()) << mesh.name;
         ASSERT_LT(mesh.material, scene.materials.size());
         for (const glm::uvec3& t : mesh.triangles)
             ASSERT_LT(std::max({t.x, t.y, t.z}), mesh.positions.size()) << mesh.name;

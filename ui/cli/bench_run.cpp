@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "engine/core/log.h"
 #include "engine/render/camera.h"
 #include "engine/render/lighting.h"
 #include "engine/scene/import.h"
@@ -68,7 +69,10 @@ SceneRows benchScene(Device& device, const std::string& name, const Scene& scene
     std::vector<std::unique_ptr<BenchSubject>> subjects;
     for (const Variant& variant : plan.variants)
         subjects.push_back(makeDeviceSubject(device, scene, variant.settings, variant.text));
-    if (plan.peers)
+    const bool hasQuadrics = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return !mesh.quadrics.empty(); });
+    if (plan.peers && hasQuadrics)
+        logWarning(name + " holds quadrics, which the peers (Embree, the walk on the CPU) are not given: they are left out");
+    else if (plan.peers)
         for (std::unique_ptr<BenchSubject>& peer : makePeerSubjects(scene)) subjects.push_back(std::move(peer));
     return {name, runRayBench(subjects, sets, plan.repeats)};
 }

@@ -37,8 +37,8 @@ nlohmann::ordered_json samplesJson(const Bitmap& samples) {
     return {{"least", least}, {"mean", sum / static_cast<double>(samples.pixels.size())}, {"most", most}};
 }
 
-nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSettings& settings, const Device& device,
-                                  const RenderResult& r) {
+nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSettings& settings,
+                                  ReplaceableDevice& device, const RenderResult& r) {
     nlohmann::ordered_json seconds{{"import", r.importSeconds},    {"build", r.times.build},   {"upload", r.times.upload},
                                    {"compile", r.times.compile},   {"render", r.times.render}, {"total", r.totalSeconds},
                                    {"device", r.times.device},     {"longestDispatch", r.times.longestDispatch}};
@@ -46,7 +46,7 @@ nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSett
             {"version", RAYLAB_VERSION},
             {"scene", options.scene},
             {"settings", settingsJson(settings)},
-            {"device", device.description().name},
+            {"device", device.get().description().name},
             {"seconds", seconds},
             {"samples", r.samples},
             {"samplesPerPixel", samplesJson(r.image.samples)},
@@ -58,6 +58,7 @@ nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSett
             {"clampedEnergy", r.image.clampedEnergy},
             {"memoryBytes", {{"scene", r.sceneBytes}, {"traversal", r.traceBytes}, {"film", r.filmBytes}, {"queues", r.queueBytes}}},
             {"stoppedBy", r.stoppedBy},
+            {"deviceLosses", r.deviceLosses},
             {"validationMessages", device.validationMessageCount()},
             {"output", options.output}};
 }
@@ -101,21 +102,22 @@ ExitCode render(RenderOptions options) {
     requireReadableFile(path);
     requireWritable(options.output);
 
-    Device device({settings.device, settings.validation});
-    settings = resolveForDevice(settings, device.description());
+    ReplaceableDevice device({settings.device, settings.validation});
+    settings = resolveForDevice(settings, device.get().description());
     Stopwatch watch;
     Scene scene = importScene(path);
     const double importSeconds = watch.restart();
     settleEnvironment(scene, settings);
     for (const std::string& warning : scene.warnings) logWarning(warning);
-    RenderResult result = renderUntilDone(device, scene, settings, options.quiet);
+    RenderResult result = renderDespiteLosses(device, scene, settings, options.quiet);
     result.importSeconds = importSeconds;
-    writeRender(options.output, result, settings, resultMetadata(options, settings, device, result));
+    writeRender(options.output, result, settings, resultMetadata(options, settings, device.get(), result));
     result.totalSeconds = total.seconds();
     if (!options.json.empty()) writeJson(options.json, resultJson(options, settings, device, result));
     if (options.json != "-") std::cout << summary(options, settings, result) << "\n";
     if (result.image.nonFinitePixels > 0)
         logWarning(std::to_string(result.image.nonFinitePixels) + " pixels had samples that are not finite; these are left out");
+    if (result.stoppedBy == kStoppedByLoss) return ExitCode::noDevice;
     return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;
 }
 

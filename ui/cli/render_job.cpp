@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
 #include "engine/render/tonemap.h"
 #include "ui/cli/interrupt.h"
@@ -16,26 +18,44 @@ namespace {
 constexpr double kNoiseInterval = 1.0;
 constexpr double kNoiseShare = 0.05;
 
-/// Estimates the film's noise from time to time.
+RenderResult resultOf(Renderer& renderer) {
+    RenderResult result;
+    result.image = renderer.snapshot();
+    result.times = renderer.times();
+    result.samples = renderer.completeSamples();
+    result.pixelSamples = renderer.pixelSamples();
+    result.sceneBytes = renderer.prepared().gpu->memoryBytes();
+    result.traceBytes = renderer.prepared().tracer->memoryBytes();
+    result.filmBytes = renderer.filmBytes();
+    result.queueBytes = renderer.queueBytes();
+    result.sceneDiagonal = renderer.sceneDiagonal();
+    return result;
+}
+
+/// Estimates the film's noise from time to time, and leaves what it has seen in `last`.
 class NoiseWatch {
 public:
+    explicit NoiseWatch(std::optional<RenderResult>& last) : last_(last) {}
     double update(Renderer& renderer, const Stopwatch& rendering) {
         if (renderer.completeSamples() < 2 || rendering.seconds() < next_) return noise_;
         Stopwatch watch;
-        noise_ = renderer.snapshot().estimatedRelativeError;
+        last_ = resultOf(renderer);
+        noise_ = last_->image.estimatedRelativeError;
         next_ = rendering.seconds() + std::max(kNoiseInterval, watch.seconds() / kNoiseShare);
         return noise_;
     }
 
 private:
+    std::optional<RenderResult>& last_;
     double noise_ = -1.0;
     double next_ = kNoiseInterval;
 };
 
-std::string renderLoop(Renderer& renderer, const RenderSettings& settings, bool quiet) {
+std::string renderLoop(Renderer& renderer, const RenderSettings& settings, bool quiet,
+                       std::optional<RenderResult>& last) {
     const InterruptGuard guard;
     Progress progress(quiet);
-    NoiseWatch noise;
+    NoiseWatch noise(last);
     const Stopwatch watch;
     while (renderer.step()) {
         const double error = noise.update(renderer, watch);
@@ -49,6 +69,16 @@ std::string renderLoop(Renderer& renderer, const RenderSettings& settings, bool 
     return "samples";
 }
 
+/// `last`: gets what the last look at the noise has seen, lest a loss of the device takes all.
+RenderResult renderOnce(Device& device, const Scene& scene, const RenderSettings& settings, bool quiet,
+                        std::optional<RenderResult>& last) {
+    Renderer renderer(device, scene, settings);
+    const std::string stoppedBy = renderLoop(renderer, settings, quiet, last);
+    RenderResult result = resultOf(renderer);
+    result.stoppedBy = stoppedBy;
+    return result;
+}
+
 /// Depth in units of the scene's diagonal; other views are colours already.
 Bitmap displayOfView(const RenderResult& result, const IntegratorInfo& info) {
     Bitmap display = result.image.mean;
@@ -60,18 +90,25 @@ Bitmap displayOfView(const RenderResult& result, const IntegratorInfo& info) {
 }  // namespace
 
 RenderResult renderUntilDone(Device& device, const Scene& scene, const RenderSettings& settings, bool quiet) {
-    Renderer renderer(device, scene, settings);
+    std::optional<RenderResult> last;
+    return renderOnce(device, scene, settings, quiet, last);
+}
+
+RenderResult renderDespiteLosses(ReplaceableDevice& device, const Scene& scene, RenderSettings& settings, bool quiet) {
+    std::optional<RenderResult> last;
+    LossRecovery recovery;
     RenderResult result;
-    result.stoppedBy = renderLoop(renderer, settings, quiet);
-    result.image = renderer.snapshot();
-    result.times = renderer.times();
-    result.samples = renderer.completeSamples();
-    result.pixelSamples = renderer.pixelSamples();
-    result.sceneBytes = renderer.prepared().gpu->memoryBytes();
-    result.traceBytes = renderer.prepared().tracer->memoryBytes();
-    result.filmBytes = renderer.filmBytes();
-    result.queueBytes = renderer.queueBytes();
-    result.sceneDiagonal = renderer.sceneDiagonal();
+    try {
+        result = renderThroughLosses(device, settings, recovery, [&](Device& here, const RenderSettings& now) {
+            return renderOnce(here, scene, now, quiet, last);
+        });
+    } catch (const DeviceLost& loss) {
+        if (!last) throw;
+        logError(std::string(loss.what()) + "; the picture has the samples of the last look at its noise");
+        result = std::move(*last);
+        result.stoppedBy = kStoppedByLoss;
+    }
+    result.deviceLosses = recovery.losses() + (result.stoppedBy == kStoppedByLoss ? 1 : 0);
     return result;
 }
 

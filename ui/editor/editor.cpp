@@ -11,6 +11,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
+#include "engine/gpu/check.h"
 #include "engine/image/image8.h"
 #include "engine/render/camera.h"
 #include "engine/scene/import.h"
@@ -35,6 +36,7 @@ namespace {
 constexpr double kRestSeconds = 0.2;    ///< without a movement, until the picture is a full one again
 constexpr double kFrameSeconds = 0.015; ///< between frames while something moves
 constexpr double kIdleSeconds = 0.5;    ///< between frames while nothing happens
+constexpr uint32_t kSwapchainImages = 3;
 constexpr int kSettlingFrames = 3;      ///< that ImGui wants after an event
 
 class Editor {
@@ -42,9 +44,9 @@ public:
     explicit Editor(const EditorOptions& options)
         : config_(loadConfig()),
           window_(config_.windowWidth, config_.windowHeight, options.settings.device, options.settings.validation),
-          swapchain_(window_.device(), window_.surface()),
-          imgui_(window_.get(), window_.device(), swapchain_.renderPass(), 3, window_.scale()),
-          images_(window_.device(), swapchain_.renderPass()),
+          swapchain_(std::make_unique<Swapchain>(window_.device(), window_.surface())),
+          imgui_(window_.get(), window_.device(), swapchain_->renderPass(), kSwapchainImages, window_.scale()),
+          images_(window_.device(), swapchain_->renderPass()),
           background_(wakeWindow),
           shaders_(std::make_shared<ShaderSources>(dataFolder("shaders"))),
           session_(options.settings.device, options.settings.validation, {shaders_}, wakeWindow),
@@ -86,7 +88,7 @@ public:
         keepConfig();
         session_.stop();
         const uint32_t messages = session_.validationMessages() + comparison().validationMessages() +
-                                  countingValidationMessages(context_) + window_.device().validationMessageCount();
+                                  countingValidationMessages(context_) + window_.validationMessageCount();
         return messages > 0 ? ExitCode::checkFailed : ExitCode::done;
     }
 
@@ -142,9 +144,29 @@ private:
         files_.draw(context_, [this](editor::OpenedDocument&& opened) { adopt(std::move(opened)); });
         imgui_.endFrame();
         requestPicture();
-        show();
+        try {
+            show();
+            shownSinceLoss_ = true;
+        } catch (const DeviceLost& loss) {
+            replaceDevice(loss);
+        }
         window_.endFrame();
         window_.setTitle(title());
+    }
+
+    /// The window goes on with another device; all that the interface knows stays as it is. Throws Error where that one
+    /// is lost before it has shown a frame.
+    void replaceDevice(const DeviceLost& loss) {
+        if (!std::exchange(shownSinceLoss_, false)) throw loss;
+        logWarning(std::string("the window's device was lost (") + loss.what() + "); a fresh one draws it");
+        images_.releaseDevice();
+        imgui_.releaseDevice();
+        swapchain_.reset();
+        window_.replaceDevice();
+        swapchain_ = std::make_unique<Swapchain>(window_.device(), window_.surface());
+        imgui_.useDevice(window_.device(), swapchain_->renderPass(), kSwapchainImages);
+        images_.useDevice(window_.device(), swapchain_->renderPass());
+        settling_ = kSettlingFrames;
     }
 
     void show() {
@@ -156,7 +178,7 @@ private:
                 imgui_.draw(commands);
             }};
         Image8 copy;
-        const bool shown = swapchain_.present(window_.framebufferSize(), recorder, screenshot_.empty() ? nullptr : &copy);
+        const bool shown = swapchain_->present(window_.framebufferSize(), recorder, screenshot_.empty() ? nullptr : &copy);
         images_.endFrame();
         if (!shown) return;
         if (window_.hasNewEvents())
@@ -257,7 +279,7 @@ private:
     EditorConfig config_;
     EditorState state_;
     Window window_;
-    Swapchain swapchain_;
+    std::unique_ptr<Swapchain> swapchain_;
     ImGuiBackend imgui_;
     ImagePainter images_;
     Background background_;
@@ -278,6 +300,7 @@ private:
     bool moving_ = false;
     bool opened_ = false;  ///< a document that has not been shown yet
     bool quit_ = false;
+    bool shownSinceLoss_ = true;  ///< a frame
     int settling_ = kSettlingFrames;
 };
 

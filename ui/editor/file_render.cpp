@@ -8,6 +8,7 @@
 #include "engine/core/stopwatch.h"
 #include "engine/image/image8.h"
 #include "engine/image/image_io.h"
+#include "engine/render/device_recovery.h"
 #include "engine/render/lighting.h"
 #include "engine/render/renderer.h"
 #include "ui/editor/picture.h"
@@ -37,18 +38,10 @@ std::string progressText(const std::filesystem::path& path, double done) {
     return "Rendering " + path.filename().string() + percent.data();
 }
 
-}  // namespace
-
-void renderImage(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                 const std::filesystem::path& path, JobControl& control) {
-    requireWritable(path);
-    Device device({settings.device, settings.validation});
-    Scene settled = scene;
-    settleEnvironment(settled, settings);
-    settled.cameras.insert(settled.cameras.begin(), camera);
-    RenderSettings own = settings;
-    own.camera = "0";
-    Renderer renderer(device, settled, own);
+/// Nothing is written where the job is cancelled.
+void renderOnce(Device& device, const Scene& scene, const RenderSettings& settings, const std::filesystem::path& path,
+                JobControl& control) {
+    Renderer renderer(device, scene, settings);
     const Stopwatch watch;
     double nextLook = kLookInterval;
     bool enough = false;
@@ -58,11 +51,28 @@ void renderImage(const Scene& scene, const Camera& camera, const RenderSettings&
         nextLook = watch.seconds() + kLookInterval;
         control.report(progressText(path, renderer.fractionDone()));
         if (renderer.completeSamples() == 0) continue;
-        enough = (own.timeLimit > 0.0 && watch.seconds() >= own.timeLimit) ||
-                 (own.targetError > 0.0 && renderer.completeSamples() > 1 &&
-                  renderer.snapshot().estimatedRelativeError <= own.targetError);
+        enough = (settings.timeLimit > 0.0 && watch.seconds() >= settings.timeLimit) ||
+                 (settings.targetError > 0.0 && renderer.completeSamples() > 1 &&
+                  renderer.snapshot().estimatedRelativeError <= settings.targetError);
     }
-    writeImage(path, renderer.snapshot(), own, renderer.sceneDiagonal());
+    writeImage(path, renderer.snapshot(), settings, renderer.sceneDiagonal());
+}
+
+}  // namespace
+
+void renderImage(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                 const std::filesystem::path& path, JobControl& control) {
+    requireWritable(path);
+    Scene settled = scene;
+    settleEnvironment(settled, settings);
+    settled.cameras.insert(settled.cameras.begin(), camera);
+    RenderSettings own = settings;
+    own.camera = "0";
+    ReplaceableDevice device({settings.device, settings.validation});
+    LossRecovery recovery;
+    renderThroughLosses(device, own, recovery, [&](Device& here, const RenderSettings& now) {
+        renderOnce(here, settled, now, path, control);
+    });
 }
 
 }  // namespace raylab

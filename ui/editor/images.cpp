@@ -64,7 +64,24 @@ MemoryHandle bindMemory(const Device& device, VkImage image) {
 
 }  // namespace
 
-ImagePainter::ImagePainter(Device& device, VkRenderPass renderPass) : device_(device) {
+ImagePainter::ImagePainter(Device& device, VkRenderPass renderPass) { useDevice(device, renderPass); }
+
+void ImagePainter::releaseDevice() {
+    quads_.clear();
+    uploads_.clear();
+    for (const std::weak_ptr<UiImage>& image : images_)
+        if (const UiImagePtr there = image.lock()) release(*there);
+    images_.clear();
+    pipeline_ = {};
+    layout_ = {};
+    setLayout_ = {};
+    sharp_ = {};
+    smooth_ = {};
+    device_ = nullptr;
+}
+
+void ImagePainter::useDevice(Device& device, VkRenderPass renderPass) {
+    device_ = &device;
     smooth_ = makeSampler(VK_FILTER_LINEAR);
     sharp_ = makeSampler(VK_FILTER_NEAREST);
     VkDescriptorSetLayoutBinding binding{};
@@ -97,14 +114,14 @@ SamplerHandle ImagePainter::makeSampler(VkFilter filter) const {
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device_.get(), &info, nullptr, &sampler), "vkCreateSampler");
-    return {device_.get(), sampler};
+    check(vkCreateSampler(device_->get(), &info, nullptr, &sampler), "vkCreateSampler");
+    return {device_->get(), sampler};
 }
 
 void ImagePainter::createPipeline(VkRenderPass renderPass) {
     const std::filesystem::path folder = dataFolder("shaders");
-    const ShaderModuleHandle vertex = loadModule(device_, folder / "editor_image.vert.spv", {});
-    const ShaderModuleHandle fragment = loadModule(device_, folder / "editor_image.frag.spv", {});
+    const ShaderModuleHandle vertex = loadModule(*device_, folder / "editor_image.vert.spv", {});
+    const ShaderModuleHandle fragment = loadModule(*device_, folder / "editor_image.frag.spv", {});
     const std::array stages = {stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get()),
                                stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get())};
     const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
@@ -145,29 +162,34 @@ void ImagePainter::createPipeline(VkRenderPass renderPass) {
     info.layout = layout_.get();
     info.renderPass = renderPass;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device_.get(), device_.pipelineCache(), 1, &info, nullptr, &pipeline),
+    check(vkCreateGraphicsPipelines(device_->get(), device_->pipelineCache(), 1, &info, nullptr, &pipeline),
           "vkCreateGraphicsPipelines");
-    pipeline_ = {device_.get(), pipeline};
+    pipeline_ = {device_->get(), pipeline};
 }
 
-UiImagePtr ImagePainter::create(uint32_t width, uint32_t height) const {
-    auto image = std::make_shared<UiImage>();
-    image->width = width;
-    image->height = height;
-    image->staging = Buffer(device_, "texels of a picture", size_t{4} * width * height,
-                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload);
-    image->image = makeImage(device_, width, height);
-    image->memory = bindMemory(device_, image->image.get());
+void ImagePainter::create(UiImage& image) const {
+    image.staging = Buffer(*device_, "texels of a picture", size_t{4} * image.width * image.height,
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::upload);
+    image.image = makeImage(*device_, image.width, image.height);
+    image.memory = bindMemory(*device_, image.image.get());
     VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    info.image = image->image.get();
+    info.image = image.image.get();
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     info.format = kFormat;
     info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     VkImageView view = VK_NULL_HANDLE;
-    check(vkCreateImageView(device_.get(), &info, nullptr, &view), "vkCreateImageView");
-    image->view = {device_.get(), view};
-    createSets(*image);
-    return image;
+    check(vkCreateImageView(device_->get(), &info, nullptr, &view), "vkCreateImageView");
+    image.view = {device_->get(), view};
+    createSets(image);
+    image.written = false;
+}
+
+void ImagePainter::release(UiImage& image) const {
+    image.pool = {};
+    image.view = {};
+    image.image = {};
+    image.memory = {};
+    image.staging = {};
 }
 
 void ImagePainter::createSets(UiImage& image) const {
@@ -177,8 +199,8 @@ void ImagePainter::createSets(UiImage& image) const {
     info.poolSizeCount = 1;
     info.pPoolSizes = &size;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device_.get(), &info, nullptr, &pool), "vkCreateDescriptorPool");
-    image.pool = {device_.get(), pool};
+    check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool), "vkCreateDescriptorPool");
+    image.pool = {device_->get(), pool};
     image.smooth = makeSet(image, smooth_.get());
     image.sharp = makeSet(image, sharp_.get());
 }
@@ -190,22 +212,37 @@ VkDescriptorSet ImagePainter::makeSet(const UiImage& image, VkSampler sampler) c
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    check(vkAllocateDescriptorSets(device_.get(), &allocate, &set), "vkAllocateDescriptorSets");
+    check(vkAllocateDescriptorSets(device_->get(), &allocate, &set), "vkAllocateDescriptorSets");
     const VkDescriptorImageInfo info{sampler, image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set;
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     write.pImageInfo = &info;
-    vkUpdateDescriptorSets(device_.get(), 1, &write, 0, nullptr);
+    vkUpdateDescriptorSets(device_->get(), 1, &write, 0, nullptr);
     return set;
 }
 
 void ImagePainter::setTexels(UiImagePtr& image, std::span<const uint32_t> texels, uint32_t width, uint32_t height) {
     if (texels.size() != size_t{width} * height || texels.empty())
         throw Error("a picture has another number of texels than its size says", ExitCode::internalError);
-    if (image == nullptr || image->width != width || image->height != height) image = create(width, height);
-    std::memcpy(image->staging.mapped(), texels.data(), texels.size_bytes());
+    if (image == nullptr || image->width != width || image->height != height) {
+        image = std::make_shared<UiImage>();
+        image->width = width;
+        image->height = height;
+    }
+    image->texels.assign(texels.begin(), texels.end());
+    fill(image);
+}
+
+/// From the host's copy of its texels, with the next frame; makes the image where it is not on the device.
+void ImagePainter::fill(const UiImagePtr& image) {
+    if (!image->image) {
+        create(*image);
+        std::erase_if(images_, [](const std::weak_ptr<UiImage>& each) { return each.expired(); });
+        images_.push_back(image);
+    }
+    std::memcpy(image->staging.mapped(), image->texels.data(), std::span(image->texels).size_bytes());
     if (std::ranges::find(uploads_, image) == uploads_.end()) uploads_.push_back(image);
 }
 
@@ -227,6 +264,7 @@ void ImagePainter::recordUploads(VkCommandBuffer commands) {
 
 void ImagePainter::draw(ImDrawList& list, const UiImagePtr& image, const ImVec2& lo, const ImVec2& hi,
                         const ImVec2& uv0, const ImVec2& uv1, bool sharp) {
+    if (!image->image) fill(image);
     const ImVec2 clipLo = list.GetClipRectMin(), clipHi = list.GetClipRectMax();
     quads_.push_back({this,
                       image,

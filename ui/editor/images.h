@@ -19,7 +19,8 @@ namespace raylab {
 struct UiImage {
     uint32_t width = 0;
     uint32_t height = 0;
-    bool written = false;  ///< the image has had texels before
+    std::vector<uint32_t> texels;  ///< the host's copy, which outlives a device
+    bool written = false;          ///< the image has had texels before
     Buffer staging;
     MemoryHandle memory;
     ImageHandle image;
@@ -35,6 +36,9 @@ using UiImagePtr = std::shared_ptr<UiImage>;
 class ImagePainter {
 public:
     ImagePainter(Device& device, VkRenderPass renderPass);
+    /// Lets go of the device, of all images too, and takes another one: images come back when they are drawn.
+    void releaseDevice();
+    void useDevice(Device& device, VkRenderPass renderPass);
     ImagePainter(const ImagePainter&) = delete;
     ImagePainter& operator=(const ImagePainter&) = delete;
 
@@ -66,19 +70,22 @@ private:
     };
     static void onDraw(const ImDrawList* list, const ImDrawCmd* command);
     void drawQuad(const Quad& quad) const;
-    UiImagePtr create(uint32_t width, uint32_t height) const;
+    void fill(const UiImagePtr& image);
+    void create(UiImage& image) const;
+    void release(UiImage& image) const;
     void createSets(UiImage& image) const;
     VkDescriptorSet makeSet(const UiImage& image, VkSampler sampler) const;
     void createPipeline(VkRenderPass renderPass);
     SamplerHandle makeSampler(VkFilter filter) const;
 
-    Device& device_;
+    Device* device_ = nullptr;
     SamplerHandle smooth_, sharp_;
     DescriptorSetLayoutHandle setLayout_;
     PipelineLayoutHandle layout_;
     PipelineHandle pipeline_;
     std::deque<Quad> quads_;  ///< of this frame; callbacks point to them
     std::vector<UiImagePtr> uploads_;
+    std::vector<std::weak_ptr<UiImage>> images_;  ///< all that are on the device
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     float origin_[2]{}, size_[2]{}, pixels_ = 1.0f;
 };

@@ -45,23 +45,24 @@ void overridePointer(const PointerOverride& pointer) {
 
 ImGuiBackend::ImGuiBackend(GLFWwindow* window, Device& device, VkRenderPass renderPass, uint32_t imageCount,
                            float scale)
-    : window_(window), device_(device), pool_(makePool(device)) {
+    : window_(window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the editor keeps its own layout
     applyTheme(scale);
     ImGui_ImplGlfw_InitForVulkan(window, true);
-    initVulkan(renderPass, imageCount);
+    useDevice(device, renderPass, imageCount);
 }
 
-void ImGuiBackend::initVulkan(VkRenderPass renderPass, uint32_t imageCount) {
+void ImGuiBackend::useDevice(Device& device, VkRenderPass renderPass, uint32_t imageCount) {
+    pool_ = makePool(device);
     ImGui_ImplVulkan_InitInfo info{};
-    info.Instance = device_.instance();
-    info.PhysicalDevice = device_.physical();
-    info.Device = device_.get();
-    info.QueueFamily = device_.queueFamily();
-    info.Queue = device_.queue();
-    info.PipelineCache = device_.pipelineCache();
+    info.Instance = device.instance();
+    info.PhysicalDevice = device.physical();
+    info.Device = device.get();
+    info.QueueFamily = device.queueFamily();
+    info.Queue = device.queue();
+    info.PipelineCache = device.pipelineCache();
     info.DescriptorPool = pool_.get();
     info.MinImageCount = 2;
     info.ImageCount = imageCount < 2 ? 2 : imageCount;
@@ -79,13 +80,19 @@ void ImGuiBackend::initVulkan(VkRenderPass renderPass, uint32_t imageCount) {
     ImGui_ImplVulkan_Init(&info, renderPass);
 #endif
 #if IMGUI_VERSION_NUM < 18999
-    device_.run("fonts", [](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
+    device.run("fonts", [](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();
 #endif
 }
 
-ImGuiBackend::~ImGuiBackend() {
+void ImGuiBackend::releaseDevice() {
+    if (!pool_) return;  // released already
     ImGui_ImplVulkan_Shutdown();
+    pool_ = {};
+}
+
+ImGuiBackend::~ImGuiBackend() {
+    releaseDevice();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
 }

@@ -27,6 +27,10 @@ public:
     ImGuiBackend(const ImGuiBackend&) = delete;
     ImGuiBackend& operator=(const ImGuiBackend&) = delete;
 
+    /// Lets go of the device, and takes another one: the interface stays as it is. Nothing is drawn in between.
+    void releaseDevice();
+    void useDevice(Device& device, VkRenderPass renderPass, uint32_t imageCount);
+
     /// Begins a frame; `pointer` replaces the mouse where given.
     void newFrame(const std::optional<PointerOverride>& pointer);
     /// A key or a character of a script, for ImGui and for those whose callbacks it calls.
@@ -37,10 +41,7 @@ public:
     void draw(VkCommandBuffer commands);
 
 private:
-    void initVulkan(VkRenderPass renderPass, uint32_t imageCount);
-
     GLFWwindow* window_;
-    Device& device_;
     DescriptorPoolHandle pool_;
 };
 

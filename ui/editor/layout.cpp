@@ -128,6 +128,10 @@ void drawStatus(EditorContext& context, const Box& box) {
         ImGui::TextColored(color::kError, "%s", status.error.substr(0, status.error.find('\n')).c_str());
     } else if (context.state.hasScene()) {
         ImGui::TextUnformatted(progressText(status).c_str());
+        if (!status.recovery.empty()) {
+            ImGui::SameLine(0.0f, 16.0f * context.scale);
+            ImGui::TextColored(color::kWarning, "%s", status.recovery.c_str());
+        }
     } else {
         ImGui::TextColored(color::kDim, "File > Open, or drop a scene on the window");
     }

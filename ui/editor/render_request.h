@@ -31,6 +31,7 @@ struct RenderStatus {
     RenderPhase phase = RenderPhase::idle;
     std::string text;   ///< what is being prepared, or why it is done
     std::string error;  ///< why the last request could not be fulfilled; empty where it could
+    std::string recovery;  ///< what goes on after a loss of the device; empty where there was none
     uint32_t samples = 0;
     uint32_t samplesWanted = 0;
     double relativeError = -1.0;  ///< estimated; negative where it is not known

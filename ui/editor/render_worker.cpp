@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
+#include "engine/render/device_recovery.h"
 #include "engine/render/kernel_use.h"
 #include "engine/render/lighting.h"
 #include "engine/render/prepared_settings.h"
@@ -38,7 +40,7 @@ class RenderWorker {
 public:
     RenderWorker(RenderSession& session, const std::string& selector, bool validation)
         : session_(session), device_({selector, validation}) {
-        session.report([&](RenderStatus& status) { status.device = device_.description().name; });
+        session.report([&](RenderStatus& status) { status.device = device_.get().description().name; });
     }
 
     void run() {
@@ -47,6 +49,8 @@ public:
                 attend(*task);
             } catch (const Cancelled&) {
                 report(renderer_ ? RenderPhase::done : RenderPhase::idle, "cancelled");
+            } catch (const DeviceLost& loss) {
+                recover(loss);
             } catch (const Error& error) {
                 fail(error.what());
             } catch (const std::bad_alloc&) {
@@ -75,6 +79,38 @@ private:
         });
     }
 
+    /// All that was on the lost device is made anew from the scene that is wanted, at the next task, which this asks for.
+    /// Where nothing is left to be tried the device is fresh too, and waits for a request of other geometry or a reload.
+    void recover(const DeviceLost& loss) {
+        caster_.reset();
+        hits_.reset();
+        renderer_.reset();
+        prepared_.reset();
+        rendering_ = false;
+        RenderSettings settings = effectiveSettings();
+        const bool goesOn = recovery_.adjust(loss, settings);
+        device_.replace();
+        if (!goesOn) {
+            recovery_.forget();
+            return fail(std::string(loss.what()) + "; F5 tries again");
+        }
+        afterLoss_ = settings;
+        session_.report([&](RenderStatus& status) {
+            status.recovery = "the device was lost: " + settings.tracer + " goes on, on a fresh one";
+        });
+        session_.reload();
+    }
+
+    /// Those that are wanted, in slices that let requests through, as far as losses of the device allow.
+    RenderSettings effectiveSettings() const {
+        RenderSettings settings = wanted_.settings;
+        settings.sliceMs = std::min(settings.sliceMs, kSliceMs);
+        if (!afterLoss_) return settings;
+        settings.tracer = afterLoss_->tracer;
+        settings.sliceMs = std::min(settings.sliceMs, afterLoss_->sliceMs);
+        return settings;
+    }
+
     void report(RenderPhase phase, const std::string& text) {
         session_.report([&](RenderStatus& status) {
             status.phase = phase;
@@ -92,6 +128,7 @@ private:
         using namespace editor;
         const RenderRequest before = std::exchange(wanted_, request);
         const bool isFirst = before.scene == nullptr;
+        if (before.settings.tracer != request.settings.tracer) forgetLosses();
         const uint32_t kinds = isFirst ? uint32_t{kEditEverything}
                                        : (editKinds(*before.scene, *request.scene) & ~uint32_t{kEditCamera}) |
                                              editKinds(before.settings, request.settings);
@@ -107,6 +144,13 @@ private:
         if (touches(kEditCamera) || isOtherView(before, request)) return restart("");
         if (touches(kEditBudget)) resume();
         if (touches(kEditFilm) || request.wantsHits != before.wantsHits) publish();
+    }
+
+    /// Another tracer is wanted: it gets its own chance.
+    void forgetLosses() {
+        afterLoss_.reset();
+        recovery_.forget();
+        session_.report([](RenderStatus& status) { status.recovery.clear(); });
     }
 
     bool isOtherView(const RenderRequest& before, const RenderRequest& request) const {
@@ -127,10 +171,9 @@ private:
     /// The settings of the film that is rendered now.
     RenderSettings filmSettings() {
         divisor_ = chooseDivisor();
-        RenderSettings settings = wanted_.settings;
+        RenderSettings settings = effectiveSettings();
         settings.width = std::max<int64_t>(wanted_.width / divisor_, 1);
         settings.height = std::max<int64_t>(wanted_.height / divisor_, 1);
-        settings.sliceMs = std::min(settings.sliceMs, kSliceMs);
         settings.camera = "0";
         if (moved_) settings.trees = "mesh";
         return settings;
@@ -156,11 +199,11 @@ private:
         report(RenderPhase::preparing, "Building the BVH");
         preview_ = true;  // first a small picture, then that of the size that is wanted
         const RenderSettings settings = filmSettings();
-        auto prepared = std::make_shared<PreparedScene>(prepareScene(device_, scene, settings, control));
+        auto prepared = std::make_shared<PreparedScene>(prepareScene(device_.get(), scene, settings, control));
         prepared->camera = wanted_.camera;
         report(RenderPhase::preparing, "Compiling the kernel");
         refreshSources(traversalOf(*prepared));
-        auto renderer = std::make_unique<Renderer>(device_, prepared, settings);
+        auto renderer = std::make_unique<Renderer>(device_.get(), prepared, settings);
         caster_.reset();
         hits_.reset();
         renderer_ = std::move(renderer);
@@ -200,7 +243,7 @@ private:
         }
         keepBackdrop();
         report(RenderPhase::preparing, "Compiling the kernel");
-        auto renderer = std::make_unique<Renderer>(device_, prepared_, filmSettings());
+        auto renderer = std::make_unique<Renderer>(device_.get(), prepared_, filmSettings());
         caster_.reset();
         hits_.reset();
         renderer_ = std::move(renderer);
@@ -223,7 +266,7 @@ private:
     void updateShading() {
         const Scene scene = settledScene();
         caster_.reset();
-        updateSettings(device_, scene, wanted_.settings, *prepared_);
+        updateSettings(device_.get(), scene, effectiveSettings(), *prepared_);
         restart("Compiling the kernel");
     }
 
@@ -273,10 +316,12 @@ private:
         if (!reason.empty()) rendering_ = false;
         const bool isFirstPass = renderer_->completeSamples() > 0 && publishedSamples_ == 0;
         if (!rendering_ || isFirstPass || sincePublish_.seconds() >= publishInterval_) publish();
-        if (!reason.empty())
+        if (!reason.empty()) {
+            recovery_.forget();
             report(RenderPhase::done, reason);
-        else if (sinceStatus_.seconds() >= kStatusInterval)
+        } else if (sinceStatus_.seconds() >= kStatusInterval) {
             describeProgress(nullptr);
+        }
     }
 
     /// Why the rendering should end before its samples are done; empty where it should not.
@@ -324,7 +369,7 @@ private:
     }
 
     RayCaster& caster() {
-        if (!caster_) caster_ = std::make_unique<RayCaster>(device_, prepared_, wanted_.settings);
+        if (!caster_) caster_ = std::make_unique<RayCaster>(device_.get(), prepared_, effectiveSettings());
         return *caster_;
     }
 
@@ -385,7 +430,9 @@ private:
     static constexpr double kUnknownCost = 1e-6;  ///< seconds a pixel: a guess that leads to small pictures at first
 
     RenderSession& session_;
-    Device device_;
+    ReplaceableDevice device_;
+    LossRecovery recovery_;
+    std::optional<RenderSettings> afterLoss_;  ///< tracer and slices to go on by, in place of those that are wanted
     RenderRequest wanted_;
     std::shared_ptr<PreparedScene> prepared_;
     std::unique_ptr<Renderer> renderer_;

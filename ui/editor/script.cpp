@@ -13,6 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/gpu/simulated_failure.h"
 #include "ui/editor/compare.h"
 #include "ui/editor/script_values.h"
 
@@ -39,7 +40,7 @@ constexpr std::array kCommands = {
     CommandRule{"resize", 2, 2},         CommandRule{"panel", 1, 1},
     CommandRule{"report-latency", 1, 1}, CommandRule{"reset-latency", 0, 0},
     CommandRule{"compare", 1, 1},        CommandRule{"set-b", 2, 2},
-    CommandRule{"quit", 0, 0},
+    CommandRule{"simulate", 1, 1},       CommandRule{"quit", 0, 0},
 };
 
 /// Words between blanks; quotation marks hold blanks together.
@@ -284,6 +285,7 @@ void Script::expandOther(const ScriptLine& line) {
             host.window.setSize(static_cast<int>(numberIn(w[1])), static_cast<int>(numberIn(w[2])));
         });
     if (w[0] == "panel") once([w](ScriptHost& host) { host.context.layoutRequest = w[1]; });
+    if (w[0] == "simulate") once([w](ScriptHost&) { simulateFailures(w[1]); });
     if (w[0] == "report-latency") once([w](ScriptHost& host) { host.latency.write(w[1]); });
     if (w[0] == "reset-latency") once([](ScriptHost& host) { host.latency.clear(); });
     if (w[0] == "quit") once([](ScriptHost& host) { host.context.quit(); });

@@ -67,6 +67,7 @@ std::map<std::string, std::string> textsOf(const ScriptHost& host) {
     const bool open = c.state.hasScene();
     return {{"phase", phaseName(c.status.phase)},
             {"error", c.status.error},
+            {"recovery", c.status.recovery},
             {"job", c.background.busyWith()},
             {"undo", open ? c.state.document->undoName() : ""},
             {"redo", open ? c.state.document->redoName() : ""},
@@ -84,7 +85,7 @@ std::map<std::string, double> numbersOf(const ScriptHost& host) {
     const VkExtent2D window = host.window.framebufferSize();
     const auto lines = c.log.lines();
     const auto errors = std::ranges::count_if(lines, [](const LogLine& line) { return line.level == LogLevel::error; });
-    const auto validation = host.window.device().validationMessageCount() + c.session.validationMessages() +
+    const auto validation = host.window.validationMessageCount() + c.session.validationMessages() +
                             c.states.get<Comparison>().validationMessages();
     const auto& comparison = c.states.get<Comparison>();
     const auto cost = [&](bool b) {

@@ -8,7 +8,7 @@
 namespace raylab {
 
 /// What a check may ask for: samples, noise, divisor, phase, instances, selected, undo-steps, unsaved, file, error,
-/// job, window-width, window-height, view-width, view-height, picture-contrast (standard deviation of the picture's
+/// recovery, job, window-width, window-height, view-width, view-height, picture-contrast (standard deviation of the picture's
 /// green, 0 to 127), camera-x, camera-y, camera-z, target-x, target-y, target-z, errors (lines of the log), validation,
 /// samples-b, cost-a, cost-b (seconds a sample), error-a, error-b, difference (the figure of a difference picture; all
 /// of these -1 where not known), wipe, compare (the mode), tracing-b, error-of-b, latency-p50, latency-p99, latency-worst

@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/gpu/check.h"
+#include "engine/gpu/submit.h"
 
 namespace raylab {
 namespace {
@@ -209,24 +210,24 @@ bool Swapchain::present(VkExtent2D size, const Recorder& recorder, Image8* copy)
 
     const VkSemaphore wait = acquired_.get(), signal = drawn_[index].get();
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-    submit.waitSemaphoreCount = 1;
-    submit.pWaitSemaphores = &wait;
-    submit.pWaitDstStageMask = &stage;
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
-    submit.signalSemaphoreCount = 1;
-    submit.pSignalSemaphores = &signal;
-    const VkFence fence = fence_.get();
-    check(vkQueueSubmit(device_.queue(), 1, &submit, fence), "vkQueueSubmit");
-    const VkSwapchainKHR swapchain = swapchain_.get();
-    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &signal;
-    info.swapchainCount = 1;
-    info.pSwapchains = &swapchain;
-    info.pImageIndices = &index;
-    const VkResult presented = vkQueuePresentKHR(device_.queue(), &info);
+    info.pWaitSemaphores = &wait;
+    info.pWaitDstStageMask = &stage;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
+    info.signalSemaphoreCount = 1;
+    info.pSignalSemaphores = &signal;
+    const VkFence fence = fence_.get();
+    submit(device_, "frame", info, fence);
+    const VkSwapchainKHR swapchain = swapchain_.get();
+    VkPresentInfoKHR presentation{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    presentation.waitSemaphoreCount = 1;
+    presentation.pWaitSemaphores = &signal;
+    presentation.swapchainCount = 1;
+    presentation.pSwapchains = &swapchain;
+    presentation.pImageIndices = &index;
+    const VkResult presented = vkQueuePresentKHR(device_.queue(), &presentation);
     stale_ = presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR || acquired == VK_SUBOPTIMAL_KHR;
     if (presented != VK_ERROR_OUT_OF_DATE_KHR && presented != VK_SUBOPTIMAL_KHR) check(presented, "vkQueuePresentKHR");
     check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");

@@ -28,7 +28,8 @@ public:
         std::function<void(VkCommandBuffer)> draw;    ///< inside
     };
     /// Draws a frame, shows it and waits until the device has drawn it. False where the surface has no size or has just
-    /// changed: nothing was drawn then. `size`: of the framebuffer. `copy`: gets the picture, where not nullptr.
+    /// changed: nothing was drawn then. `size`: of the framebuffer. `copy`: gets the picture, where not nullptr. Throws
+    /// DeviceLost; a swapchain of another device has to take this one's place then.
     bool present(VkExtent2D size, const Recorder& recorder, Image8* copy);
 
 private:

@@ -47,7 +47,8 @@ bool Input::held(int key) const {
            std::ranges::any_of(presses, [&](const KeyPress& press) { return press.key == key; });
 }
 
-Window::Window(int width, int height, const std::string& selector, bool validation) {
+Window::Window(int width, int height, const std::string& selector, bool validation)
+    : selector_(selector), validation_(validation) {
     if (glfwInit() == GLFW_FALSE)
         throw Error(
             "the editor needs a display (" + glfwMessage() + "); set DISPLAY or WAYLAND_DISPLAY, or use raylab render",
@@ -61,7 +62,7 @@ Window::Window(int width, int height, const std::string& selector, bool validati
         throw Error("the editor's window cannot be opened (" + why + ")", ExitCode::noDevice);
     }
     try {
-        openDevice(selector, validation);
+        openDevice();
     } catch (...) {
         closeDevice();
         glfwDestroyWindow(window_);
@@ -85,13 +86,13 @@ Window::~Window() {
     glfwTerminate();
 }
 
-void Window::openDevice(const std::string& selector, bool validation) {
+void Window::openDevice() {
     std::string whyNot;
-    if (tryDevice(selector, validation, whyNot)) return;
+    if (tryDevice(selector_, whyNot)) return;
     for (const DeviceDescription& device : listDevices()) {
         if (!device.unsuitable.empty()) continue;
         std::string ignored;
-        if (!tryDevice(std::to_string(device.index), validation, ignored)) continue;
+        if (!tryDevice(std::to_string(device.index), ignored)) continue;
         logWarning(whyNot + "; " + device.name + " draws the window");
         return;
     }
@@ -99,8 +100,8 @@ void Window::openDevice(const std::string& selector, bool validation) {
 }
 
 /// False where the device draws no pictures for this display. Throws Error where there is no such device.
-bool Window::tryDevice(const std::string& selector, bool validation, std::string& whyNot) {
-    DeviceOptions options{selector, validation};
+bool Window::tryDevice(const std::string& selector, std::string& whyNot) {
+    DeviceOptions options{selector, validation_};
     options.graphics = true;
     options.instanceExtensions = windowExtensions();
     options.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
@@ -119,6 +120,12 @@ void Window::closeDevice() {
     if (surface_ != VK_NULL_HANDLE) vkDestroySurfaceKHR(device_->instance(), surface_, nullptr);
     surface_ = VK_NULL_HANDLE;
     device_.reset();
+}
+
+void Window::replaceDevice() {
+    earlierMessages_ += device_->validationMessageCount();
+    closeDevice();
+    openDevice();
 }
 
 void Window::noteEvent() {

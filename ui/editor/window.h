@@ -54,6 +54,11 @@ public:
     GLFWwindow* get() const { return window_; }
     Device& device() { return *device_; }
     VkSurfaceKHR surface() const { return surface_; }
+    /// Another device and surface in place of those that were lost; what lives on them must be gone. Throws Error as the
+    /// constructor does.
+    void replaceDevice();
+    /// Of all devices that drew the window.
+    uint32_t validationMessageCount() const { return earlierMessages_ + device_->validationMessageCount(); }
 
     /// Waits at most `seconds` for an event, and takes all that there are.
     void waitEvents(double seconds);
@@ -73,14 +78,17 @@ public:
     void cancelClose();
 
 private:
-    void openDevice(const std::string& selector, bool validation);
-    bool tryDevice(const std::string& selector, bool validation, std::string& whyNot);
+    void openDevice();
+    bool tryDevice(const std::string& selector, std::string& whyNot);
     void closeDevice();
     void noteEvent();
     static void onKey(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void onDrop(GLFWwindow* window, int count, const char** paths);
 
     GLFWwindow* window_ = nullptr;
+    std::string selector_;
+    bool validation_;
+    uint32_t earlierMessages_ = 0;
     std::unique_ptr<Device> device_;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     Input input_;

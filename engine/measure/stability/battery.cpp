@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/stopwatch.h"
+#include "engine/gpu/check.h"
 
 namespace raylab::stability {
 namespace {
@@ -40,6 +41,8 @@ std::vector<Row> runCase(const Case& which, const Config& config, const Context&
         }
     } catch (const Skipped& skipped) {
         rows = {skippedRow(which, config, skipped.what())};
+    } catch (const DeviceLost&) {
+        throw;  // no case works on that device any more
     } catch (const Error& error) {
         rows = {failedRow(which, config, error.what())};
     }
