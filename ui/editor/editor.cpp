@@ -43,6 +43,7 @@ public:
           imgui_(window_.get(), window_.device(), swapchain_.renderPass(), 3, window_.scale()),
           images_(window_.device(), swapchain_.renderPass()),
           background_(wakeWindow),
+          measuring_(wakeWindow),
           session_(options.settings.device, options.settings.validation, wakeWindow),
           files_(std::chrono::seconds(config_.autosaveSeconds)),
           script_(options.script.empty() ? nullptr : std::make_unique<Script>(options.script)),
@@ -50,6 +51,7 @@ public:
                    .config = config_,
                    .session = session_,
                    .background = background_,
+                   .measuring = measuring_,
                    .images = images_,
                    .log = log_,
                    .input = window_.input(),
@@ -57,6 +59,14 @@ public:
                    .states = states_,
                    .files = files_,
                    .open = [this](const std::filesystem::path& path, OpenMode mode) { open(path, mode); },
+                   .show =
+                       [this](editor::OpenedDocument opened, const std::function<void()>& then) {
+                           auto held = std::make_shared<editor::OpenedDocument>(std::move(opened));
+                           files_.ask(context_, [this, held, then] {
+                               adopt(std::move(*held));
+                               then();
+                           });
+                       },
                    .quit = [this] { quit_ = true; }} {
         state_.startSettings = options.settings;
         context_.scale = window_.scale();
@@ -68,6 +78,8 @@ public:
             window_.waitEvents(waitSeconds());
             if (window_.hasNewEvents()) settling_ = kSettlingFrames;
             background_.collect();
+            measuring_.collect();
+            session_.setHeld(!measuring_.busyWith().empty());
             takeDrops();
             look();
             stepScript();
@@ -114,7 +126,7 @@ private:
 
     bool isIdle() const {
         const RenderPhase phase = context_.status.phase;
-        return background_.busyWith().empty() && !moving_ && phase != RenderPhase::preparing && phase != RenderPhase::rendering;
+        return background_.busyWith().empty() && measuring_.busyWith().empty() && !moving_ && phase != RenderPhase::preparing && phase != RenderPhase::rendering;
     }
 
     void frame() {
@@ -240,6 +252,7 @@ private:
     ImGuiBackend imgui_;
     ImagePainter images_;
     Background background_;
+    Background measuring_;
     RenderSession session_;
     FileDialog fileDialog_;
     PanelStates states_;

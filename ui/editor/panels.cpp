@@ -12,6 +12,9 @@ std::span<const Panel> panelTable() {
         Panel{"Render", drawRenderPanel, Pane::right},
         Panel{"Log", drawLogPanel, Pane::bottom},
         Panel{"Kernel", drawKernelPanel, Pane::bottom},
+        Panel{"Chart", drawChartPanel, Pane::bottom, 372.0f},
+        Panel{"Advice", drawAdvicePanel, Pane::bottom, 220.0f},
+        Panel{"Stability", drawStabilityPanel, Pane::bottom, 300.0f},
     };
     return kPanels;
 }

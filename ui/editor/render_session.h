@@ -25,6 +25,8 @@ public:
     /// useless.
     void submit(RenderRequest request, bool isOther);
     void setPaused(bool paused);
+    /// Pauses as well, whatever setPaused() says: something else needs the machine.
+    void setHeld(bool held);
     /// Starts over with fresh kernels: F5.
     void reload();
     /// Ends what is being prepared; the picture stays as it was.
@@ -74,6 +76,7 @@ private:
     std::shared_ptr<const Picture> picture_;
     uint64_t lastTicket_ = 0;
     bool paused_ = false;
+    bool held_ = false;
     bool pauseChanged_ = false;
     bool reload_ = false;
     bool stop_ = false;

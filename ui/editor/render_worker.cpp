@@ -36,7 +36,10 @@ class RenderWorker {
 public:
     RenderWorker(RenderSession& session, const std::string& selector, bool validation)
         : session_(session), device_({selector, validation}) {
-        session.report([&](RenderStatus& status) { status.device = device_.description().name; });
+        session.report([&](RenderStatus& status) {
+            status.device = device_.description().name;
+            status.deviceDescription = std::make_shared<const DeviceDescription>(device_.description());
+        });
     }
 
     void run() {

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "ui/editor/places.h"
 
 namespace raylab {
 namespace {
@@ -146,6 +147,8 @@ std::string scriptValue(const std::string& name, const ScriptHost& host) {
     if (const auto text = texts.find(name); text != texts.end()) return text->second;
     const auto numbers = numbersOf(host);
     if (const auto number = numbers.find(name); number != numbers.end()) return numberText(number->second);
+    const auto& noted = host.context.states.get<Places>().values;
+    if (const auto number = noted.find(name); number != noted.end()) return numberText(number->second);
     const RenderSettings& settings = host.context.state.settings();
     return settingText(getSetting(findSetting(renderSettingsTable(), name), settings));
 }

@@ -8,47 +8,15 @@
 #include <limits>
 
 #include "engine/scene/bounds.h"
-#include "ui/editor/camera_control.h"
+#include "ui/editor/evidence_view.h"
+#include "ui/editor/line_painter.h"
 #include "ui/editor/mesh_box.h"
 #include "ui/editor/theme.h"
 
 namespace raylab {
 namespace {
 
-constexpr float kNear = 1e-3f;  ///< of the distance to the target: lines are cut there
 constexpr int kGridLines = 20;  ///< to each side
-
-/// Draws lines of the scene over the picture.
-class LinePainter {
-public:
-    explicit LinePainter(const EditorContext& context)
-        : camera_(context.state.camera),
-          view_(context.view),
-          axes_(cameraAxes(camera_)),
-          near_(kNear * glm::distance(camera_.position, camera_.target)),
-          list_(*ImGui::GetWindowDrawList()) {}
-
-    void line(glm::vec3 a, glm::vec3 b, ImU32 color, float thickness) const {
-        const float depthA = depth(a), depthB = depth(b);
-        if (depthA < near_ && depthB < near_) return;
-        if (depthA < near_) a = glm::mix(a, b, (near_ - depthA) / (depthB - depthA));
-        if (depthB < near_) b = glm::mix(b, a, (near_ - depthB) / (depthA - depthB));
-        list_.AddLine(pixel(a), pixel(b), color, thickness);
-    }
-
-private:
-    float depth(const glm::vec3& point) const { return glm::dot(point - camera_.position, axes_.ahead); }
-    ImVec2 pixel(const glm::vec3& point) const {
-        const glm::vec3 at = projectPoint(camera_, view_.aspect(), point);
-        return {view_.x + at.x * view_.width, view_.y + at.y * view_.height};
-    }
-
-    const Camera& camera_;
-    const ViewRectangle& view_;
-    CameraAxes axes_;
-    float near_;
-    ImDrawList& list_;
-};
 
 /// On the plane y = 0: lines a power of ten apart, as suits the distance of the pivot.
 void drawGrid(const EditorContext& context, const LinePainter& painter) {
@@ -92,6 +60,7 @@ void drawViewOverlay(EditorContext& context) {
         const Instance& instance = state.scene().instances[index];
         drawBox(meshBox(state.scene(), instance.mesh), instance.objectToWorld, painter, ImGui::GetColorU32(color::kSelection));
     }
+    drawEvidence(context, painter);
     list.PopClipRect();
 }
 
