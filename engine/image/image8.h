@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/image/bitmap.h"
+
 namespace raylab {
 
 /// An 8-bit RGBA image as stored in its file: no transfer function is applied. Rows from top to bottom.
@@ -24,5 +26,8 @@ std::optional<Image8> decodeImage8(std::span<const std::byte> encoded, std::stri
 /// A PNG file from which decodeImage8 reads the same texels; without an alpha channel where all are opaque.
 /// `texels` holds width * height values, R in the lowest byte.
 std::vector<std::byte> encodePng8(std::span<const uint32_t> texels, uint32_t width, uint32_t height);
+
+/// What writePng() writes: linear light of [0,1] in 3 channels, or 1, encoded as sRGB.
+Image8 encodeSrgb8(const Bitmap& displayReferred);
 
 }  // namespace raylab

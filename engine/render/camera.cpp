@@ -1,6 +1,7 @@
 #include "engine/render/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -58,6 +59,17 @@ Camera chooseCamera(const Scene& scene, const std::string& text) {
     if (code == std::errc() && end == text.data() + text.size() && index < scene.cameras.size()) return scene.cameras[index];
     throw Error("--camera " + text + ": no such camera; the scene has " + cameraList(scene) +
                 "; or give px,py,pz,tx,ty,tz,fov");
+}
+
+std::string cameraNumbers(const Camera& camera) {
+    std::string text;
+    for (const float value : {camera.position.x, camera.position.y, camera.position.z, camera.target.x, camera.target.y,
+                              camera.target.z, glm::degrees(camera.fovYRadians)}) {
+        std::array<char, 32> digits{};
+        const auto [end, code] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+        text += (text.empty() ? "" : ",") + std::string(digits.data(), end);
+    }
+    return text;
 }
 
 void writeCamera(const Camera& camera, uint32_t width, uint32_t height, shared::FrameParams& frame) {

@@ -12,6 +12,9 @@ namespace raylab {
 /// the scene's cameras where none fits.
 Camera chooseCamera(const Scene& scene, const std::string& text);
 
+/// "px,py,pz,tx,ty,tz,fov", as chooseCamera() reads it, for a camera whose up is +y.
+std::string cameraNumbers(const Camera& camera);
+
 /// The fields of the camera and of the image's size (methods.md, "Common").
 void writeCamera(const Camera& camera, uint32_t width, uint32_t height, shared::FrameParams& frame);
 

@@ -8,7 +8,7 @@
 #include "engine/render/camera.h"
 #include "engine/render/lighting.h"
 #include "engine/scene/import.h"
-#include "ui/cli/variations.h"
+#include "ui/report/variations.h"
 
 namespace raylab {
 namespace {

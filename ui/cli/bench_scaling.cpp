@@ -9,7 +9,7 @@
 #include "engine/render/device_defaults.h"
 #include "engine/scene/bounds.h"
 #include "ui/cli/bench_output.h"
-#include "ui/cli/gnuplot.h"
+#include "ui/report/gnuplot.h"
 
 namespace raylab {
 namespace {

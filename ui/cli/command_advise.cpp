@@ -2,13 +2,12 @@
 
 #include "engine/core/file.h"
 #include "engine/core/log.h"
-#include "engine/render/device_defaults.h"
 #include "engine/scene/import.h"
-#include "ui/cli/advise_output.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/options.h"
 #include "ui/cli/progress.h"
+#include "ui/report/advise_job.h"
 
 namespace raylab {
 namespace {
@@ -25,51 +24,27 @@ struct AdviseOptions {
     bool quiet = false;
 };
 
-/// A reference may have half of the error that is judged by it: its noise is known, and taken off.
-constexpr double kReferenceShare = 0.5;
-constexpr double kReferenceErrorOfTime = 0.02;
-
 AdviceGoal goalOf(const RenderSettings& settings) {
     if ((settings.targetError > 0.0) == (settings.timeLimit > 0.0))
         throw Error("give either --target-error, a relative error such as 0.05, or --time-limit, in seconds");
     return {settings.targetError, settings.timeLimit, {}};
 }
 
-double referenceErrorOf(const AdviseOptions& options, const AdviceGoal& goal) {
-    if (options.referenceError > 0.0) return options.referenceError;
-    return goal.relativeError > 0.0 ? kReferenceShare * goal.relativeError : kReferenceErrorOfTime;
-}
-
-[[noreturn]] void throwInterrupted() { throw Error("interrupted; nothing was written"); }
-
 AdviceReport makeReport(Device& device, const Scene& scene, const RenderSettings& base, const AdviseOptions& options) {
-    AdviceReport report;
-    report.scene = options.scene;
-    report.device = device.description().name;
-    report.goal = goalOf(base);
-    report.goal.only = options.only;
-    report.base = resolveForDevice(base, device.description());
-    report.base.timeLimit = report.base.targetError = 0.0;
-    const double error = referenceErrorOf(options, report.goal);
-    logInfo("reference: path tracing to a relative error of " + settingText(error));
+    AdviceGoal goal = goalOf(base);
+    goal.only = options.only;
     Progress progress(options.quiet);
-    std::optional<Reference> reference =
-        obtainReference(device, scene, referenceSettings(report.base, ReferenceKind::path), error, referenceFolder(),
-                        InterruptGuard::isInterrupted, [&](double done) { progress.show(done, 0, -1.0); });
-    progress.finish();
-    if (!reference) throwInterrupted();
-    report.reference = std::move(*reference);
-    std::optional<Advice> advice =
-        advise(device, scene, report.base, report.reference, report.goal, InterruptGuard::isInterrupted,
-               [](const std::string& what) { logInfo(what); });
-    if (!advice) throwInterrupted();
-    report.advice = std::move(*advice);
-    logInfo("lights");
-    auto lights = lightShares(device, scene, report.advice.settings, report.reference, InterruptGuard::isInterrupted);
-    if (!lights) throwInterrupted();
-    report.lights = std::move(*lights);
-    report.textures = texturesBelowPixels(scene, report.base);
-    return report;
+    std::optional<AdviceReport> report =
+        runAdvice(device, options.scene, scene, base, goal, options.referenceError,
+                  {.stop = InterruptGuard::isInterrupted,
+                   .onReference = [&](double done) { progress.show(done, 0, -1.0); },
+                   .onProgress =
+                       [&](const std::string& what) {
+                           progress.finish();
+                           logInfo(what);
+                       }});
+    if (!report) throw Error("interrupted; nothing was written");
+    return std::move(*report);
 }
 
 ExitCode adviseScene(const AdviseOptions& options) {

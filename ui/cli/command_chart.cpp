@@ -1,18 +1,16 @@
-#include <iostream>
-#include <map>
+#include <optional>
+#include <utility>
 
-#include "engine/accel/bvh_cache.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
-#include "engine/measure/scene_hash.h"
 #include "engine/scene/import.h"
-#include "ui/cli/chart_configs.h"
-#include "ui/cli/chart_files.h"
-#include "ui/cli/chart_output.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/options.h"
 #include "ui/cli/progress.h"
+#include "ui/report/chart_configs.h"
+#include "ui/report/chart_job.h"
+#include "ui/report/chart_output.h"
 
 namespace raylab {
 namespace {
@@ -34,83 +32,18 @@ struct ChartOptions {
 
 constexpr int kMostLevels = 24;
 
-/// The references of a chart, each rendered or read once.
-class References {
-public:
-    References(Device& device, const Scene& scene, const ChartOptions& options)
-        : device_(device), scene_(scene), options_(options) {}
-
-    /// Nothing where the user interrupts.
-    const Reference* of(const RenderSettings& settings) {
-        const bool isFile = options_.reference != "path" && options_.reference != "own";
-        const RenderSettings wanted =
-            referenceSettings(settings, options_.reference == "own" ? ReferenceKind::own : ReferenceKind::path);
-        const std::string key = isFile ? std::to_string(settings.width) + "x" + std::to_string(settings.height)
-                                       : settingsJson(wanted).dump();
-        if (const auto found = known_.find(key); found != known_.end()) return &found->second;
-        std::optional<Reference> reference =
-            isFile
-                ? readReference(options_.reference, static_cast<int>(settings.width), static_cast<int>(settings.height))
-                : render(wanted);
-        return reference ? &known_.emplace(key, std::move(*reference)).first->second : nullptr;
-    }
-
-private:
-    std::optional<Reference> render(const RenderSettings& settings) {
-        logInfo("reference: " + options_.reference + ", to a relative error of " +
-                settingText(options_.referenceError));
-        Progress progress(options_.quiet);
-        return obtainReference(device_, scene_, settings, options_.referenceError, referenceFolder(),
-                               InterruptGuard::isInterrupted, [&](double done) { progress.show(done, 0, -1.0); });
-    }
-
-    Device& device_;
-    const Scene& scene_;
-    const ChartOptions& options_;
-    std::map<std::string, Reference> known_;
-};
-
-/// What tells one choice of reference from another: a file by its bytes.
-std::string referenceIdentity(const std::string& choice) {
-    if (choice == "path" || choice == "own") return choice;
-    const Hash128 hash = hashBytes(readFile(choice));
-    return "file " + std::to_string(hash.high) + " " + std::to_string(hash.low);
-}
-
-Chart makeChart(const ChartOptions& options, const RenderSettings& base, const Scene& scene,
-                const DeviceDescription& device) {
-    Chart chart;
-    chart.folder = options.folder;
-    chart.scene = options.scene;
-    chart.sceneHash = sceneHash(scene);
-    chart.device = device.name;
-    chart.referenceChoice = referenceIdentity(options.reference);
-    chart.referenceError = options.referenceError;
-    chart.targetError = base.targetError;
-    chart.plan = {.configs = chartConfigs(base, options.request, device),
-                  .seeds = options.seeds,
-                  .levels = options.levels,
-                  .firstSeed = static_cast<uint32_t>(base.seed),
-                  .timeLimit = base.timeLimit,
-                  .measure = parseErrorMeasure(options.error)};
-    return chart;
-}
-
-/// Measures until all is done or the user interrupts; the table on disk follows each point.
-void measure(ChartRun& run, Chart& chart, bool quiet) {
-    Progress progress(quiet);
-    while (const std::optional<ChartShot> shot = run.next(InterruptGuard::isInterrupted)) {
-        chart.table = run.table();
-        analyse(chart);
-        writeChartCsv(chart);
-        if (shot->repeat == 0) writePictures(chart, *shot);
-        progress.show(run.fractionDone(), samplesOfLevel(shot->level), -1.0);
-    }
-    chart.table = run.table();
-    chart.levelLimits = run.levelLimits();
-    chart.setupTimes = run.setupTimes();
-    chart.isInterrupted = InterruptGuard::isInterrupted();
-    analyse(chart);
+ChartOrder orderOf(const ChartOptions& options, const RenderSettings& base, const DeviceDescription& device) {
+    return {.scene = options.scene,
+            .folder = options.folder,
+            .configs = chartConfigs(base, options.request, device),
+            .seeds = options.seeds,
+            .levels = options.levels,
+            .firstSeed = static_cast<uint32_t>(base.seed),
+            .timeLimit = base.timeLimit,
+            .targetError = base.targetError,
+            .measure = parseErrorMeasure(options.error),
+            .reference = options.reference,
+            .referenceError = options.referenceError};
 }
 
 ExitCode chartScene(const ChartOptions& options) {
@@ -121,23 +54,19 @@ ExitCode chartScene(const ChartOptions& options) {
     Device device({base.device, base.validation});
     const Scene scene = importScene(scenePath(options.scene));
     for (const std::string& warning : scene.warnings) logWarning(warning);
-    Chart chart = makeChart(options, base, scene, device.description());
-    const std::optional<EarlierChart> earlier = loadEarlier(chart);
-
+    const ChartOrder order = orderOf(options, base, device.description());
     const InterruptGuard guard;
-    References references(device, scene, options);
-    for (const ChartConfig& config : chart.plan.configs) {
-        const Reference* reference = references.of(config.settings);
-        if (reference == nullptr) throw Error("interrupted while the reference was rendered; nothing was measured yet");
-        chart.references.push_back(reference);
-    }
-    ChartRun run(device, scene, chart.plan, chart.references);
-    if (earlier) run.resume(earlier->table, earlier->partials);
-    writeChartJson(chart);
-    measure(run, chart, options.quiet);
-    writePartials(chart, run.partials());
-    writeChartCsv(chart);
-    writeChartOutput(chart);
+    std::optional<Progress> progress(options.quiet);
+    bool isMeasuring = false;
+    const auto onPoint = [&](const Chart&, const ChartShot& shot, double done) {
+        if (!std::exchange(isMeasuring, true)) progress.emplace(options.quiet);  // a clock of its own
+        progress->show(done, samplesOfLevel(shot.level), -1.0);
+    };
+    const Chart chart = runChart(device, scene, order,
+                                 {.stop = InterruptGuard::isInterrupted,
+                                  .onReference = [&](double done) { progress->show(done, 0, -1.0); },
+                                  .onPoint = onPoint});
+    progress.reset();
     printChart(chart);
     return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;
 }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <iostream>
 
 #include "engine/core/file.h"
@@ -6,7 +5,8 @@
 #include "engine/core/stopwatch.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
-#include "ui/cli/stability_output.h"
+#include "ui/report/stability_output.h"
+#include "ui/report/stability_plan.h"
 
 namespace raylab {
 namespace {
@@ -30,31 +30,11 @@ struct StabilityOptions {
     bool prints() const { return json != "-"; }
 };
 
-/// `--scenes`, or ../shared/scenes of a source tree that the program was built in; empty where neither is there.
+/// `--scenes`, or those that lie beside the source tree.
 fs::path scenesFolder(const std::string& given) {
-    if (!given.empty()) {
-        if (!fs::is_directory(given)) throw Error("--scenes " + given + " is no folder");
-        return given;
-    }
-    for (fs::path folder = executableFolder(); folder.has_relative_path(); folder = folder.parent_path())
-        if (fs::exists(folder / "CMakePresets.json")) {
-            const fs::path beside = folder / "../shared/scenes";
-            return fs::is_directory(beside) ? beside : fs::path();
-        }
-    return {};
-}
-
-stability::Plan planOf(const StabilityOptions& options, const DeviceDescription& device) {
-    stability::Plan plan;
-    for (const std::string& id : options.cases)
-        for (const stability::Case* each : stability::casesOf(id)) plan.cases.push_back(each);
-    if (options.cases.empty())
-        for (const stability::Case& each : stability::cases()) plan.cases.push_back(&each);
-    for (const std::string& set : options.configs)
-        for (const stability::Config& config : stability::configsOf(set, device))
-            if (std::ranges::find(plan.configs, config.name, &stability::Config::name) == plan.configs.end())
-                plan.configs.push_back(config);
-    return plan;
+    if (given.empty()) return sharedScenes();
+    if (!fs::is_directory(given)) throw Error("--scenes " + given + " is no folder");
+    return given;
 }
 
 void requireFiles(const StabilityOptions& options) {
@@ -83,7 +63,7 @@ ExitCode runStability(const StabilityOptions& options) {
     requireFiles(options);
     const fs::path scenes = scenesFolder(options.scenes);
     Device device({options.device, options.validation});
-    const stability::Plan plan = planOf(options, device.description());
+    const stability::Plan plan = stabilityPlan(options.cases, options.configs, device.description());
     const InterruptGuard guard;
     const Stopwatch watch;
     const stability::Context context{device, {}, options.quick, scenes, executableFolder() / "raylab", [&] {

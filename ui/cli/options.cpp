@@ -1,10 +1,7 @@
 #include "ui/cli/options.h"
 
-#include <iostream>
-
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "ui/cli/settings_file.h"
 
 namespace raylab {
 namespace {
@@ -55,28 +52,11 @@ std::filesystem::path scenePath(const std::string& text) {
     return std::filesystem::exists(own) ? own : path;
 }
 
-nlohmann::ordered_json settingsJson(const RenderSettings& settings) {
-    nlohmann::ordered_json json;
-    for (const Setting<RenderSettings>& setting : renderSettingsTable())
-        std::visit([&](const auto& value) { json[std::string(setting.name)] = value; }, getSetting(setting, settings));
-    return json;
-}
-
 Metadata settingsMetadata(const RenderSettings& settings) {
     Metadata metadata;
     for (const Setting<RenderSettings>& setting : renderSettingsTable())
         metadata.emplace_back(setting.name, settingText(getSetting(setting, settings)));
     return metadata;
-}
-
-void writeJson(const std::string& path, const nlohmann::ordered_json& json) {
-    const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    if (path == "-") {
-        std::cout << text << std::flush;
-        if (!std::cout) throw Error("standard output cannot be written");
-        return;
-    }
-    writeFileAtomically(path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace raylab

@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "engine/image/image_io.h"
 #include "engine/render/render_settings.h"
+#include "ui/report/settings_file.h"
 
 namespace raylab {
 
@@ -30,10 +30,6 @@ private:
 /// The file of a scene: a path, or the name of a scene that comes with raylab ("courtyard"). Throws Error.
 std::filesystem::path scenePath(const std::string& text);
 
-nlohmann::ordered_json settingsJson(const RenderSettings& settings);
 Metadata settingsMetadata(const RenderSettings& settings);
-
-/// Writes to a file, or to standard output for "-".
-void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 
 }  // namespace raylab

@@ -108,6 +108,7 @@ void Comparison::look(EditorContext& context) {
     b_.status = session_->status();
     b_.picture = session_->picture();
     session_->setPaused(!isOn() || context.status.phase == RenderPhase::paused);
+    session_->setHeld(!context.measuring.busyWith().empty());
     if (job_) job_->collect();
     if (!isOn()) return;
     const bool counts = isQuiet(a_.status) && isQuiet(b_.status);

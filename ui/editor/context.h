@@ -10,6 +10,7 @@
 #include "ui/editor/editor_state.h"
 #include "ui/editor/file_dialog.h"
 #include "ui/editor/images.h"
+#include "ui/editor/model/document_file.h"
 #include "ui/editor/model/edit_materials.h"
 #include "ui/editor/model/gizmo.h"
 #include "ui/editor/panel_states.h"
@@ -40,6 +41,7 @@ struct EditorContext {
     EditorConfig& config;
     RenderSession& session;
     Background& background;
+    Background& measuring;  ///< times something, so that the viewport waits meanwhile
     ImagePainter& images;
     EditorLog& log;
     const Input& input;
@@ -47,6 +49,8 @@ struct EditorContext {
     PanelStates& states;
     DocumentFiles& files;
     std::function<void(const std::filesystem::path&, OpenMode)> open;  ///< reads in the background
+    /// A document in place of this one, and what comes after that; asks before edits are lost.
+    std::function<void(editor::OpenedDocument, std::function<void()>)> show;
     std::function<void()> quit;                                       ///< at once; DocumentFiles::ask() asks before
 
     // Of this frame.

@@ -48,6 +48,7 @@ public:
           imgui_(window_.get(), window_.device(), swapchain_->renderPass(), kSwapchainImages, window_.scale()),
           images_(window_.device(), swapchain_->renderPass()),
           background_(wakeWindow),
+          measuring_(wakeWindow),
           shaders_(std::make_shared<ShaderSources>(dataFolder("shaders"))),
           session_(options.settings.device, options.settings.validation, {shaders_}, wakeWindow),
           shaderWatch_(shaders_, wakeWindow),
@@ -57,6 +58,7 @@ public:
                    .config = config_,
                    .session = session_,
                    .background = background_,
+                   .measuring = measuring_,
                    .images = images_,
                    .log = log_,
                    .input = window_.input(),
@@ -64,6 +66,14 @@ public:
                    .states = states_,
                    .files = files_,
                    .open = [this](const std::filesystem::path& path, OpenMode mode) { open(path, mode); },
+                   .show =
+                       [this](editor::OpenedDocument opened, const std::function<void()>& then) {
+                           auto held = std::make_shared<editor::OpenedDocument>(std::move(opened));
+                           files_.ask(context_, [this, held, then] {
+                               adopt(std::move(*held));
+                               then();
+                           });
+                       },
                    .quit = [this] { quit_ = true; }} {
         state_.startSettings = options.settings;
         context_.scale = window_.scale();
@@ -75,6 +85,8 @@ public:
             window_.waitEvents(waitSeconds());
             if (window_.hasNewEvents()) settling_ = kSettlingFrames;
             background_.collect();
+            measuring_.collect();
+            session_.setHeld(!measuring_.busyWith().empty());
             takeDrops();
             look();
             stepScript();
@@ -133,8 +145,8 @@ private:
 
     bool isIdle() {
         const RenderPhase phase = context_.status.phase;
-        return background_.busyWith().empty() && !moving_ && phase != RenderPhase::preparing && phase != RenderPhase::rendering &&
-               !comparison().isBusy();
+        return background_.busyWith().empty() && measuring_.busyWith().empty() && !moving_ &&
+               phase != RenderPhase::preparing && phase != RenderPhase::rendering && !comparison().isBusy();
     }
 
     void frame() {
@@ -283,6 +295,7 @@ private:
     ImGuiBackend imgui_;
     ImagePainter images_;
     Background background_;
+    Background measuring_;
     std::shared_ptr<ShaderSources> shaders_;
     RenderSession session_;
     ShaderWatch shaderWatch_;

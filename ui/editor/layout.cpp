@@ -59,6 +59,14 @@ void drawTabs(EditorContext& context, Pane pane) {
     ImGui::EndTabBar();
 }
 
+/// Of a pane, as its front panel needs it.
+float leastHeightOf(const EditorContext& context, Pane pane) {
+    const auto front = context.config.tabs.find(paneName(pane));
+    if (front == context.config.tabs.end()) return 0.0f;
+    const auto panel = std::ranges::find(panelTable(), front->second, &Panel::name);
+    return panel == panelTable().end() ? 0.0f : panel->leastHeight;
+}
+
 void drawTabbedPane(EditorContext& context, Pane pane, const Box& box) {
     beginPane(paneName(pane), box);
     drawTabs(context, pane);
@@ -120,6 +128,10 @@ void drawStatus(EditorContext& context, const Box& box) {
         ImGui::TextColored(color::kAccent, "%s ...", job.c_str());
         ImGui::SameLine();
         if (ImGui::SmallButton("Cancel##job")) context.background.cancel();
+    } else if (const std::string measured = context.measuring.busyWith(); !measured.empty()) {
+        ImGui::TextColored(color::kAccent, "%s   the viewport waits", measured.c_str());
+        ImGui::SameLine();
+        if (ImGui::SmallButton("Cancel##measuring")) context.measuring.cancel();
     } else if (status.phase == RenderPhase::preparing) {
         ImGui::TextColored(color::kAccent, "%s", status.text.c_str());
         ImGui::SameLine();
@@ -155,7 +167,7 @@ void drawLayout(EditorContext& context) {
     EditorConfig& config = context.config;
     const float splitter = kSplitter * s, status = kStatusHeight * s;
     const float height = display.y - top - status;
-    const float left = config.leftWidth * s, right = config.rightWidth * s, bottom = config.bottomHeight * s;
+    const float left = config.leftWidth * s, right = config.rightWidth * s, bottom = std::max(config.bottomHeight, leastHeightOf(context, Pane::bottom)) * s;
     const float centreX = left + splitter;
     const float centreWidth = std::max(display.x - left - right - 2.0f * splitter, 50.0f);
     const float viewHeight = std::max(height - bottom - splitter, 50.0f);

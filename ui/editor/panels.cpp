@@ -19,6 +19,9 @@ std::span<const Panel> panelTable() {
         Panel{"Kernel", drawKernelPanel, Pane::bottom},
         Panel{"Nodes", drawNodesPanel, Pane::bottom},
         Panel{"Ray", drawRayPanel, Pane::bottom},
+        Panel{"Chart", drawChartPanel, Pane::bottom, 372.0f},
+        Panel{"Advice", drawAdvicePanel, Pane::bottom, 220.0f},
+        Panel{"Stability", drawStabilityPanel, Pane::bottom, 300.0f},
     };
     return kPanels;
 }

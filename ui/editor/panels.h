@@ -14,6 +14,7 @@ struct Panel {
     std::string_view name;
     void (*draw)(EditorContext& context);  ///< into the current ImGui window
     Pane pane;
+    float leastHeight = 0.0f;  ///< that its pane gets while it is in front, at a scale of 1
 };
 
 std::span<const Panel> panelTable();
@@ -25,6 +26,9 @@ void drawRenderPanel(EditorContext& context);
 void drawComparePanel(EditorContext& context);
 void drawKernelPanel(EditorContext& context);
 void drawLogPanel(EditorContext& context);
+void drawChartPanel(EditorContext& context);
+void drawStabilityPanel(EditorContext& context);
+void drawAdvicePanel(EditorContext& context);
 /// The list of keys over everything else, while context.showKeys.
 void drawKeysOverlay(EditorContext& context);
 

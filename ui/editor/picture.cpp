@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/image/srgb.h"
+#include "engine/image/image8.h"
 #include "engine/render/integrators.h"
 #include "engine/render/tonemap.h"
 
@@ -54,16 +54,11 @@ Picture developPicture(const FilmImage& film, const Bitmap& backdrop, const Rend
                        float sceneDiagonal) {
     Bitmap mean = film.mean;
     fillGaps(mean, film.samples, backdrop);
-    const Bitmap display = displayImage(std::move(mean), settings, sceneDiagonal);
+    Image8 display = encodeSrgb8(displayImage(std::move(mean), settings, sceneDiagonal));
     Picture picture;
-    picture.width = static_cast<uint32_t>(display.width);
-    picture.height = static_cast<uint32_t>(display.height);
-    picture.texels.resize(display.pixelCount());
-    for (size_t i = 0; i < picture.texels.size(); ++i) {
-        const float* p = display.pixels.data() + 3 * i;
-        picture.texels[i] = uint32_t{linearToSrgb8(p[0])} | uint32_t{linearToSrgb8(p[1])} << 8 |
-                            uint32_t{linearToSrgb8(p[2])} << 16 | 0xff000000u;
-    }
+    picture.width = display.width;
+    picture.height = display.height;
+    picture.texels = std::move(display.texels);
     return picture;
 }
 

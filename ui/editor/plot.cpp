@@ -258,6 +258,18 @@ std::optional<PlotPick> nearestPoint(const PlotSpec& spec, const Frame& frame) {
     return nearest;
 }
 
+std::vector<std::vector<std::pair<float, float>>> placesOf(const PlotSpec& spec, const Frame& frame) {
+    std::vector<std::vector<std::pair<float, float>>> places;
+    for (const PlotSeries& series : spec.series) {
+        places.emplace_back();
+        for (const PlotPoint& p : series.points) {
+            const ImVec2 at = isShown(p) ? frame.at(p.x, p.y) : ImVec2(NAN, NAN);
+            places.back().emplace_back(at.x, at.y);
+        }
+    }
+    return places;
+}
+
 bool hasPoints(const PlotSpec& spec) {
     return std::ranges::any_of(spec.series, [](const PlotSeries& s) { return std::ranges::any_of(s.points, isShown); });
 }
@@ -291,6 +303,7 @@ PlotResult drawPlot(const PlotSpec& spec, const ImVec2& size) {
     if (result.hovered) painter.hovered(*result.hovered);
     painter.legend();
     list.PopClipRect();
+    result.places = placesOf(spec, frame);
     return result;
 }
 

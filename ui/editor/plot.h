@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct ImVec2;
@@ -64,6 +65,8 @@ struct PlotPick {
 struct PlotResult {
     std::optional<PlotPick> hovered;  ///< the point that is nearest to the pointer, if near enough
     bool clicked = false;             ///< on the hovered point, or beside all
+    /// Where the points are on the screen, by series; NaN for those that are left out.
+    std::vector<std::vector<std::pair<float, float>>> places;
 };
 
 /// Draws into the current window, at the cursor, as an item of `size` (ImGui's units). The axes hold all points, bands

@@ -13,6 +13,8 @@
 
 namespace raylab {
 
+struct DeviceDescription;
+
 /// What the viewport wants to show.
 struct RenderRequest {
     std::shared_ptr<const Scene> scene;
@@ -47,6 +49,7 @@ struct RenderStatus {
     uint32_t kernelNeeds = 0;
     std::string tracer;
     std::string device;
+    std::shared_ptr<const DeviceDescription> deviceDescription;  ///< nullptr before there is a device
 };
 
 /// What a rendering looks like on a display.

@@ -42,6 +42,16 @@ void RenderSession::setPaused(bool paused) {
     changed_.notify_all();
 }
 
+void RenderSession::setHeld(bool held) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (held == held_) return;
+        pauseChanged_ = true;
+        held_ = held;
+    }
+    changed_.notify_all();
+}
+
 void RenderSession::reload() {
     {
         const std::lock_guard lock(mutex_);
@@ -94,7 +104,7 @@ std::optional<RenderSession::Task> RenderSession::nextTask(bool busy) {
     cancel_ = false;
     pauseChanged_ = false;
     return Task{std::exchange(request_, std::nullopt), std::exchange(pick_, std::nullopt),
-                std::exchange(reload_, false), std::exchange(reloadShaders_, false), paused_};
+                std::exchange(reload_, false), std::exchange(reloadShaders_, false), paused_ || held_};
 }
 
 bool RenderSession::hasRequest() const {

@@ -33,6 +33,8 @@ public:
     /// useless.
     void submit(RenderRequest request, bool isOther);
     void setPaused(bool paused);
+    /// Pauses as well, whatever setPaused() says: something else needs the machine.
+    void setHeld(bool held);
     /// Prepares everything anew, with kernels of the sources as they are: F5.
     void reload();
     /// Takes up what has changed of the shaders' sources. Where one does not compile, the kernel stays.
@@ -87,6 +89,7 @@ private:
     std::shared_ptr<const Picture> picture_;
     uint64_t lastTicket_ = 0;
     bool paused_ = false;
+    bool held_ = false;
     bool pauseChanged_ = false;
     bool reload_ = false;
     bool reloadShaders_ = false;

@@ -40,7 +40,10 @@ class RenderWorker {
 public:
     RenderWorker(RenderSession& session, const std::string& selector, bool validation)
         : session_(session), device_({selector, validation}) {
-        session.report([&](RenderStatus& status) { status.device = device_.get().description().name; });
+        session.report([&](RenderStatus& status) {
+            status.device = device_.get().description().name;
+            status.deviceDescription = std::make_shared<const DeviceDescription>(device_.get().description());
+        });
     }
 
     void run() {

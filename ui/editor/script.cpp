@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <set>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include "engine/core/log.h"
 #include "engine/gpu/simulated_failure.h"
 #include "ui/editor/compare.h"
+#include "ui/editor/places.h"
 #include "ui/editor/script_values.h"
 
 namespace raylab {
@@ -40,7 +43,8 @@ constexpr std::array kCommands = {
     CommandRule{"resize", 2, 2},         CommandRule{"panel", 1, 1},
     CommandRule{"report-latency", 1, 1}, CommandRule{"reset-latency", 0, 0},
     CommandRule{"compare", 1, 1},        CommandRule{"set-b", 2, 2},
-    CommandRule{"simulate", 1, 1},       CommandRule{"quit", 0, 0},
+    CommandRule{"simulate", 1, 1},       CommandRule{"press", 1, 2},
+    CommandRule{"report-place", 2, 2},   CommandRule{"quit", 0, 0},
 };
 
 /// Words between blanks; quotation marks hold blanks together.
@@ -86,6 +90,24 @@ void movePointer(ScriptHost& host, const std::string& x, const std::string& y) {
     const ViewRectangle& view = host.context.view;
     host.pointer->x = coordinate(x, view.x, view.width);
     host.pointer->y = coordinate(y, view.y, view.height);
+}
+
+/// False while there is no such place.
+bool movePointerTo(ScriptHost& host, const std::string& place) {
+    const auto centre = findPlace(host.context, place);
+    if (!centre) return false;
+    if (!host.pointer) host.pointer = PointerOverride{};
+    host.pointer->x = centre->first;
+    host.pointer->y = centre->second;
+    return true;
+}
+
+/// "X Y", for who moves the pointer from outside.
+void reportPlace(ScriptHost& host, const std::string& place, const std::string& file) {
+    const auto centre = findPlace(host.context, place);
+    if (!centre) throw Error("nothing is drawn there");
+    const std::string text = std::to_string(std::lround(centre->first)) + " " + std::to_string(std::lround(centre->second)) + "\n";
+    writeFileAtomically(file, std::as_bytes(std::span(text)));
 }
 
 void pressKey(ScriptHost& host, int key, bool down, int mods) {
@@ -149,7 +171,7 @@ bool Script::step(ScriptHost& host) {
 }
 
 void Script::expand(const ScriptLine& line) {
-    static const std::set<std::string> pointer = {"move", "click", "double-click", "drag", "wheel"};
+    static const std::set<std::string> pointer = {"move", "click", "double-click", "drag", "wheel", "press"};
     static const std::set<std::string> keys = {"key", "hold", "type"};
     const std::string& command = line.words.front();
     if (pointer.contains(command))
@@ -164,7 +186,14 @@ void Script::expand(const ScriptLine& line) {
 
 void Script::expandPointer(const ScriptLine& line) {
     const std::vector<std::string> w = line.words;
-    add([w](ScriptHost& host) { return movePointer(host, w[1], w[2]), true; });
+    if (w[0] == "press") {
+        const auto approach = [w](ScriptHost& host) { return movePointerTo(host, w[1]); };
+        add(approach);
+        add([](ScriptHost&) { return true; });
+        add(approach);  // what has just opened is at its place only now
+    } else {
+        add([w](ScriptHost& host) { return movePointer(host, w[1], w[2]), true; });
+    }
     if (w[0] == "move") return;
     if (w[0] == "wheel") {
         add([w](ScriptHost& host) { return host.pointer->wheel = static_cast<float>(numberIn(w[3])), true; });
@@ -190,7 +219,7 @@ void Script::expandPointer(const ScriptLine& line) {
             });
     }
     press(false);
-    if (w[0] == "double-click") {
+    if (w[0] == "double-click" || (w[0] == "press" && w.size() > 2 && w[2] == "double")) {
         press(true);
         press(false);
     }
@@ -288,6 +317,7 @@ void Script::expandOther(const ScriptLine& line) {
     if (w[0] == "simulate") once([w](ScriptHost&) { simulateFailures(w[1]); });
     if (w[0] == "report-latency") once([w](ScriptHost& host) { host.latency.write(w[1]); });
     if (w[0] == "reset-latency") once([](ScriptHost& host) { host.latency.clear(); });
+    if (w[0] == "report-place") once([w](ScriptHost& host) { reportPlace(host, w[1], w[2]); });
     if (w[0] == "quit") once([](ScriptHost& host) { host.context.quit(); });
 }
 

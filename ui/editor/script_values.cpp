@@ -13,6 +13,7 @@
 #include "engine/core/error.h"
 #include "ui/editor/compare.h"
 #include "ui/editor/inspection_actions.h"
+#include "ui/editor/places.h"
 
 namespace raylab {
 namespace {
@@ -167,6 +168,8 @@ std::string scriptValue(const std::string& name, const ScriptHost& host) {
     if (const auto number = numbers.find(name); number != numbers.end()) return numberText(number->second);
     const auto inspected = inspectionNumbers(host.context);
     if (const auto number = inspected.find(name); number != inspected.end()) return numberText(number->second);
+    const auto& noted = host.context.states.get<Places>().values;
+    if (const auto number = noted.find(name); number != noted.end()) return numberText(number->second);
     const RenderSettings& settings = host.context.state.settings();
     return settingText(getSetting(findSetting(renderSettingsTable(), name), settings));
 }

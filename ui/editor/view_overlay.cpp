@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/editor/evidence_view.h"
 #include "ui/editor/line_painter.h"
 #include "ui/editor/mesh_box.h"
 #include "ui/editor/outline.h"
@@ -50,6 +51,7 @@ void drawViewOverlay(EditorContext& context) {
         painter.box(meshBox(state.scene(), instance.mesh), instance.objectToWorld, ImGui::GetColorU32(color::kSelection),
                     1.5f);
     }
+    drawEvidence(context, painter);
     list.PopClipRect();
 }
 

@@ -13,6 +13,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/image/bitmap.h"
+#include "engine/measure/stability/evidence.h"
 #include "engine/render/render_settings.h"
 
 /// The stability battery: where ray tracers fail, a number for each failure, on each configuration.
@@ -55,6 +56,7 @@ struct Number {
     std::string unit;
     std::string note;               ///< what else is worth knowing
     std::optional<Bitmap> picture;  ///< of where it fails, display-referred; made where it does
+    std::optional<Evidence> evidence = std::nullopt;  ///< to be looked at; where the case has such
     bool passes() const { return value <= limit; }
 };
 

@@ -39,10 +39,15 @@ std::vector<shared::RayData> raysFor(const Closed& closed, size_t count) {
     return rays;
 }
 
-Number leakNumber(const Closed& closed, std::span<const shared::RayData> rays, std::span<const shared::HitData> hits) {
+Number leakNumber(const Context& context, const Closed& closed, std::span<const shared::RayData> rays,
+                  std::span<const shared::HitData> hits) {
     std::vector<glm::dvec2> leaks;
-    for (size_t i = 0; i < rays.size(); ++i)
-        if (hits[i].t < 0.0f) leaks.push_back(onMap(glm::dvec3(rays[i].direction)));
+    std::vector<size_t> wrong;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        if (!(hits[i].t < 0.0f)) continue;
+        leaks.push_back(onMap(glm::dvec3(rays[i].direction)));
+        wrong.push_back(i);
+    }
     const bool isFar = closed.centre != glm::vec3(0.0f);
     Number number{"leaks from a " + closed.what + (isFar ? ", far away" : ", at the origin"),
                   static_cast<double>(leaks.size()) / static_cast<double>(rays.size()),
@@ -51,6 +56,7 @@ Number leakNumber(const Closed& closed, std::span<const shared::RayData> rays, s
                   std::to_string(leaks.size()) + " of " + std::to_string(rays.size()),
                   std::nullopt};
     if (!number.passes()) number.picture = scatterPicture(leaks);
+    if (!wrong.empty()) number.evidence = rayEvidence(sceneOf(closed.mesh), context.settings, rays, wrong);
     return number;
 }
 
@@ -124,12 +130,14 @@ std::vector<size_t> wrongRays(const Scene& scene, std::span<const shared::RayDat
     return wrong;
 }
 
-Number axisNumber(const std::string& what, const std::vector<shared::RayData>& rays, const std::vector<size_t>& wrong) {
+Number axisNumber(const Context& context, const std::string& what, const std::vector<shared::RayData>& rays,
+                  const std::vector<size_t>& wrong) {
     std::vector<glm::dvec2> where;
     for (const size_t i : wrong) where.emplace_back((glm::dvec2(rays[i].origin) + 2.0) / 11.0);
     Number number{what,   static_cast<double>(wrong.size()),   0.0,
                   "rays", "of " + std::to_string(rays.size()), std::nullopt};
     if (!number.passes()) number.picture = scatterPicture(where);
+    if (!wrong.empty()) number.evidence = rayEvidence(gridOfCubes(), context.settings, rays, wrong);
     return number;
 }
 
@@ -152,7 +160,7 @@ std::vector<Number> measureLeaksOf(const Context& context, size_t which, size_t 
     for (const Closed& closed : meshes) {
         context.check();
         const std::vector<shared::RayData> rays = raysFor(closed, count);
-        numbers.push_back(leakNumber(closed, rays, caster.closest(rays)));
+        numbers.push_back(leakNumber(context, closed, rays, caster.closest(rays)));
     }
     return numbers;
 }
@@ -212,10 +220,10 @@ std::vector<Number> measureAxisRaysAgainst(const Context& context, const AxisAns
     RayCaster caster(context.device, scene, context.settings);
     const std::vector<shared::HitData> hits = caster.closest(expected.rays);
     if (context.isTracedByDriver())
-        return {axisNumber("rays along axes that are wrong", expected.rays,
+        return {axisNumber(context, "rays along axes that are wrong", expected.rays,
                            wrongRays(scene, expected.rays, hits, expected.closest))};
-    return {axisNumber("closest hits that are not brute force's", expected.rays, differentHits(hits, expected.closest)),
-            axisNumber("shadow rays that are not brute force's", expected.rays,
+    return {axisNumber(context, "closest hits that are not brute force's", expected.rays, differentHits(hits, expected.closest)),
+            axisNumber(context, "shadow rays that are not brute force's", expected.rays,
                        differentHits(caster.occluded(expected.rays), expected.occluded))};
 }
 

@@ -75,9 +75,10 @@ Number planeNumber(const Context& context, const Plane& plane, bool shownTwice) 
                   std::nullopt};
     for (const float sunDegrees : {30.0f, 85.0f}) {
         if (context.quick && sunDegrees < 45.0f) continue;
-        const FilmImage film = renderFilm(context, litPlane(plane, sunDegrees, shownTwice), settings);
+        const Scene scene = litPlane(plane, sunDegrees, shownTwice);
+        const FilmImage film = renderFilm(context, scene, settings);
         const double exact = 0.5 + 0.5 * std::cos(glm::radians(static_cast<double>(sunDegrees)));
-        number.value += static_cast<double>(countWrongPixels(film, exact, plane.tolerance, number.picture));
+        judgePixels(number, scene, settings, film, exact, plane.tolerance);
     }
     return number;
 }
@@ -99,8 +100,8 @@ Number tiltedNumber(const Context& context, float half) {
     scene.environment = constantEnvironment(1.0f);
     lookAt(scene, glm::mat3(tilt()) * (half * glm::vec3(0.3f, 2.0f, 0.2f)), glm::vec3(0.0f), 0.6f);
     Number number{sized("unevenly lit pixels: tilted plane of half size", half), 0.0, 0.0, "of 256", "", std::nullopt};
-    const FilmImage film = renderFilm(context, scene, smallImage(context.settings, 16, 64, 2));
-    number.value = static_cast<double>(countWrongPixels(film, 0.5, 1e-5, number.picture));
+    const RenderSettings settings = smallImage(context.settings, 16, 64, 2);
+    judgePixels(number, scene, settings, renderFilm(context, scene, settings), 0.5, 1e-5);
     return number;
 }
 
@@ -203,7 +204,7 @@ Number lowBoxNumber(const Context& context, float gap, float at) {
                   "of 1024",
                   std::to_string(film.rays) + " rays",
                   std::nullopt};
-    number.value = static_cast<double>(countWrongPixels(film, 0.0, 0.0, number.picture));
+    judgePixels(number, scene, settings, film, 0.0, 0.0);
     return number;
 }
 
@@ -287,7 +288,8 @@ std::vector<Number> measureTerminator(const Context& context) {
     sun.intensity = glm::vec3(static_cast<float>(kPi));
     scene.lights = {sun};
     lookAt(scene, {0.0f, 0.0f, 5.0f}, glm::vec3(0.0f), 0.24f);
-    const FilmImage film = renderFilm(context, scene, smallImage(context.settings, 128, 16, 1));
+    const RenderSettings settings = smallImage(context.settings, 128, 16, 1);
+    const FilmImage film = renderFilm(context, scene, settings);
     double largest = 0.0, jump = 0.0;
     for (int y = 0; y < 128; ++y)
         for (int x = 1; x < 128; ++x) {
@@ -297,18 +299,21 @@ std::vector<Number> measureTerminator(const Context& context) {
             jump = std::max(jump, std::abs(here - before));
         }
     return {{"largest step of brightness across the terminator of a ball of 16 x 8", jump / largest, kNoLimit,
-             "of the maximum", "a smooth ball has .02", displayed(film.mean)}};
+             "of the maximum", "a smooth ball has .02", displayed(film.mean), imageEvidence(scene, settings)}};
 }
 
 std::vector<Number> measureLeaves(const Context& context) {
-    const FilmImage film = renderFilm(context, leafScene(), occlusionImage(context, 32));
+    const Scene scene = leafScene();
+    const RenderSettings settings = occlusionImage(context, 32);
+    const FilmImage film = renderFilm(context, scene, settings);
     Number number{"rays that a leaf with holes stops on itself",
-                  occludedRays(film),
+                  0.0,
                   0.0,
                   "rays",
                   "of " + std::to_string(film.rays),
                   std::nullopt};
-    countWrongPixels(film, 1.0, 1e-3, number.picture);
+    judgePixels(number, scene, settings, film, 1.0, 1e-3);
+    number.value = occludedRays(film);
     return {std::move(number)};
 }
 

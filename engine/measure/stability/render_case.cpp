@@ -46,21 +46,43 @@ Estimate estimateOf(const FilmImage& film, int channel) {
     return estimate;
 }
 
+namespace {
+
+bool isWrongPixel(const FilmImage& film, size_t pixel, double exact, double relativeTolerance) {
+    for (size_t c = 0; c < 3; ++c) {
+        const double error = std::abs(static_cast<double>(film.mean.pixels[3 * pixel + c]) - exact);
+        if (!(error <= relativeTolerance * std::abs(exact))) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 size_t countWrongPixels(const FilmImage& film, double exact, double relativeTolerance, std::optional<Bitmap>& picture) {
     Bitmap marked = displayed(film.mean);
     size_t wrong = 0;
     for (size_t i = 0; i < film.mean.pixelCount(); ++i) {
-        bool isWrong = false;
-        for (size_t c = 0; c < 3; ++c) {
-            const double error = std::abs(static_cast<double>(film.mean.pixels[3 * i + c]) - exact);
-            isWrong = isWrong || !(error <= relativeTolerance * std::abs(exact));
-        }
+        const bool isWrong = isWrongPixel(film, i, exact, relativeTolerance);
         wrong += isWrong ? 1u : 0u;
         for (size_t c = 0; c < 3; ++c)
             marked.pixels[3 * i + c] = isWrong ? (c == 0 ? 1.0f : 0.0f) : 0.3f * marked.pixels[3 * i + c];
     }
     if (wrong > 0) picture = std::move(marked);
     return wrong;
+}
+
+void judgePixels(Number& number, const Scene& scene, const RenderSettings& settings, const FilmImage& film,
+                 double exact, double relativeTolerance) {
+    std::optional<Bitmap> picture;
+    number.value += static_cast<double>(countWrongPixels(film, exact, relativeTolerance, picture));
+    if (!picture || number.picture) return;
+    number.picture = std::move(picture);
+    number.evidence = imageEvidence(scene, settings);
+    const auto width = static_cast<size_t>(film.mean.width), height = static_cast<size_t>(film.mean.height);
+    for (size_t i = 0; i < width * height && number.evidence->pixels.size() < kMostEvidence; ++i)
+        if (isWrongPixel(film, i, exact, relativeTolerance))
+            number.evidence->pixels.emplace_back((static_cast<double>(i % width) + 0.5) / static_cast<double>(width),
+                                                 (static_cast<double>(i / width) + 0.5) / static_cast<double>(height));
 }
 
 Bitmap scatterPicture(std::span<const glm::dvec2> points, int size) {

@@ -33,6 +33,10 @@ Estimate estimateOf(const FilmImage& film, int channel = 0);
 /// above a dim image of the rest, where there is any.
 size_t countWrongPixels(const FilmImage& film, double exact, double relativeTolerance, std::optional<Bitmap>& picture);
 
+/// Adds countWrongPixels() to the number; its picture and its evidence are of the first image in which one is wrong.
+void judgePixels(Number& number, const Scene& scene, const RenderSettings& settings, const FilmImage& film,
+                 double exact, double relativeTolerance);
+
 /// Points of a picture of `size` pixels a side, (0,0) to (1,1) from its upper left corner, bright on grey.
 Bitmap scatterPicture(std::span<const glm::dvec2> points, int size = 256);
 

@@ -3,9 +3,9 @@
 #include <limits>
 #include <sstream>
 
-#include "ui/cli/chart_report.h"
-#include "ui/cli/chart_svg.h"
-#include "ui/cli/gnuplot.h"
+#include "ui/report/chart_report.h"
+#include "ui/report/chart_svg.h"
+#include "ui/report/gnuplot.h"
 
 namespace raylab {
 namespace {

@@ -1,4 +1,4 @@
-#include "ui/cli/advise_output.h"
+#include "ui/report/advise_output.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,8 @@
 #include <cstdio>
 #include <iostream>
 
-#include "ui/cli/chart_output.h"
-#include "ui/cli/options.h"
-#include "ui/cli/settings_file.h"
+#include "ui/report/chart_output.h"
+#include "ui/report/settings_file.h"
 
 namespace raylab {
 namespace {
@@ -45,12 +44,6 @@ nlohmann::ordered_json stepJson(const AdviceStep& step) {
                            {"energy", option.energy},
                            {"buildSeconds", option.buildSeconds}});
     return {{"setting", step.setting}, {"before", step.held}, {"chosen", step.chosen}, {"options", options}};
-}
-
-std::string gainText(const Interval& gain) {
-    if (gain.value == 0.0) return "its bias is too large";
-    if (std::isinf(gain.value)) return "reaches the error, which the former does not";
-    return "x " + shortNumber(gain.value) + " (" + shortNumber(gain.low) + " to " + shortNumber(gain.high) + ")";
 }
 
 void printStep(const AdviceStep& step) {
@@ -96,16 +89,19 @@ void printUnneeded(const AdviceReport& report) {
                   << shortNumber(texture.texelsPerPixel) << " texels or more along each pixel\n";
 }
 
-void printForecast(const char* who, const Forecast& forecast) {
-    std::cout << "  " << who << ": ";
-    if (forecast.samples == 0)
-        std::cout << "never, its relative bias is " << shortNumber(forecast.relativeBias) << "\n";
-    else
-        std::cout << forecast.samples << " samples, " << secondsText(forecast.seconds) << ", relative error "
-                  << shortNumber(forecast.relativeError) << "\n";
+}  // namespace
+
+std::string gainText(const Interval& gain) {
+    if (gain.value == 0.0) return "its bias is too large";
+    if (std::isinf(gain.value)) return "reaches the error, which the former does not";
+    return "x " + shortNumber(gain.value) + " (" + shortNumber(gain.low) + " to " + shortNumber(gain.high) + ")";
 }
 
-}  // namespace
+std::string forecastText(const Forecast& forecast) {
+    if (forecast.samples == 0) return "never, its relative bias is " + shortNumber(forecast.relativeBias);
+    return std::to_string(forecast.samples) + " samples, " + secondsText(forecast.seconds) + ", relative error " +
+           shortNumber(forecast.relativeError);
+}
 
 nlohmann::ordered_json adviceJson(const AdviceReport& report) {
     nlohmann::ordered_json steps = nlohmann::ordered_json::array(), lights = steps, textures = steps;
@@ -151,9 +147,8 @@ void printAdvice(const AdviceReport& report) {
     for (const AdviceStep& step : advice.steps) printStep(step);
     printUnneeded(report);
     std::cout << "Forecast\n";
-    printForecast("advised", advice.forecast);
-    printForecast("default", advice.standard);
-    std::cout << "  achieved by one run: " << secondsText(advice.achieved.seconds) << ", relative error "
+    std::cout << "  advised: " << forecastText(advice.forecast) << "\n  default: " << forecastText(advice.standard) << "\n"
+              << "  achieved by one run: " << secondsText(advice.achieved.seconds) << ", relative error "
               << shortNumber(advice.achieved.relativeError) << "\n"
               << "raylab render " << shellQuoted(report.scene) << settingsAsOptions(advice.settings) << " --spp "
               << advice.settings.spp << "\n";

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/image/image8.h"
 #include "engine/measure/chart_analysis.h"
 #include "engine/measure/chart_run.h"
 
@@ -21,8 +23,9 @@ struct Chart {
     double referenceError = 0.0;  ///< that was asked for
     double targetError = 0.0;     ///< that the report answers for besides its own choice; 0: none
     ChartPlan plan;
-    std::vector<const Reference*> references;  ///< of each configuration
+    std::vector<std::shared_ptr<const Reference>> references;  ///< of each configuration
     ChartTable table;
+    std::vector<PartialSeeds> partials;  ///< once the run has ended: for one that resumes it
     std::vector<ChartCurve> curves;
     std::vector<int> levelLimits;  ///< below plan.levels: the time limit ended it
     std::vector<std::optional<RenderTimes>> setupTimes;
@@ -55,10 +58,19 @@ struct EarlierChart {
 /// a table of unknown origin.
 std::optional<EarlierChart> loadEarlier(const Chart& chart);
 
-/// Seeds without their last ones, for the run that resumes; what was there before goes.
-void writePartials(const Chart& chart, const std::vector<PartialSeeds>& partials);
+/// The chart's seeds without their last ones, for the run that resumes; what was there before goes.
+void writePartials(const Chart& chart);
 
-/// The pictures of a point, as small PNG files.
-void writePictures(const Chart& chart, const ChartShot& shot);
+/// A point as it is looked at: the picture as a display shows it, and its error map.
+struct ChartPictures {
+    Image8 image;
+    Image8 heat;
+};
+
+/// Of at most 320 pixels a row.
+ChartPictures makePictures(const Chart& chart, const ChartShot& shot);
+
+/// As PNG files.
+void writePictures(const Chart& chart, size_t config, uint32_t samples, const ChartPictures& pictures);
 
 }  // namespace raylab

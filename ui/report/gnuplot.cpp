@@ -1,4 +1,4 @@
-#include "ui/cli/gnuplot.h"
+#include "ui/report/gnuplot.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "ui/cli/chart_output.h"
+#include "ui/report/chart_output.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 
 #include "engine/core/file.h"
 #include "engine/core/log.h"
-#include "ui/cli/chart_report.h"
-#include "ui/cli/chart_svg.h"
-#include "ui/cli/gnuplot.h"
-#include "ui/cli/options.h"
+#include "ui/report/chart_report.h"
+#include "ui/report/chart_svg.h"
+#include "ui/report/gnuplot.h"
+#include "ui/report/settings_file.h"
 
 namespace raylab {
 namespace {
@@ -230,6 +230,12 @@ void writeChartOutput(const Chart& chart) {
     const bool hasPoints = std::ranges::any_of(chart.curves, [](const ChartCurve& c) { return !c.groups.empty(); });
     if (hasPoints && !runGnuplot(chart.folder / "chart.gnuplot"))
         logWarning("gnuplot is not installed: chart.png is missing; once it is, gnuplot chart.gnuplot draws it");
+}
+
+void writeChart(const Chart& chart) {
+    writePartials(chart);
+    writeChartCsv(chart);
+    writeChartOutput(chart);
 }
 
 void printChart(const Chart& chart) {

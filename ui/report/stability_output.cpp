@@ -1,4 +1,4 @@
-#include "ui/cli/stability_output.h"
+#include "ui/report/stability_output.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/measure/stability/battery.h"
-#include "ui/cli/options.h"
+#include "ui/report/settings_file.h"
 
 namespace raylab {
 

@@ -1,5 +1,7 @@
-#include "ui/cli/settings_file.h"
+#include "ui/report/settings_file.h"
 
+#include <iostream>
+#include <span>
 #include <string_view>
 
 #include "engine/core/error.h"
@@ -17,6 +19,23 @@ std::string textOf(const nlohmann::json& value, const std::string& name) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json settingsJson(const RenderSettings& settings) {
+    nlohmann::ordered_json json;
+    for (const Setting<RenderSettings>& setting : renderSettingsTable())
+        std::visit([&](const auto& value) { json[std::string(setting.name)] = value; }, getSetting(setting, settings));
+    return json;
+}
+
+void writeJson(const std::string& path, const nlohmann::ordered_json& json) {
+    const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    if (path == "-") {
+        std::cout << text << std::flush;
+        if (!std::cout) throw Error("standard output cannot be written");
+        return;
+    }
+    writeFileAtomically(path, std::as_bytes(std::span(text)));
+}
 
 nlohmann::json readJsonFile(const std::string& path) {
     const std::vector<std::byte> bytes = readFile(path);

@@ -7,6 +7,11 @@
 
 namespace raylab {
 
+nlohmann::ordered_json settingsJson(const RenderSettings& settings);
+
+/// Writes to a file, or to standard output for "-".
+void writeJson(const std::string& path, const nlohmann::ordered_json& json);
+
 /// Throws Error, naming the file, where it cannot be read or is no JSON.
 nlohmann::json readJsonFile(const std::string& path);
 

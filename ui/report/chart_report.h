@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "ui/cli/chart_output.h"
+#include "ui/report/chart_output.h"
 
 namespace raylab {
 

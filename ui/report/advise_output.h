@@ -27,6 +27,12 @@ nlohmann::ordered_json adviceJson(const AdviceReport& report);
 /// For --preset: the settings that the search chose, and what it expects of them.
 nlohmann::ordered_json presetJson(const AdviceReport& report);
 
+/// "x 1.4 (1.2 to 1.7)": how many times as fast; or what infinity and 0 stand for.
+std::string gainText(const Interval& gain);
+
+/// Samples, time and error; or why there is none.
+std::string forecastText(const Forecast& forecast);
+
 /// In sentences, to standard output.
 void printAdvice(const AdviceReport& report);
 

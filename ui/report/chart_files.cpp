@@ -1,4 +1,4 @@
-#include "ui/cli/chart_files.h"
+#include "ui/report/chart_files.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,7 @@
 #include "engine/image/image_io.h"
 #include "engine/measure/image_error.h"
 #include "engine/render/tonemap.h"
-#include "ui/cli/options.h"
-#include "ui/cli/settings_file.h"
+#include "ui/report/settings_file.h"
 
 namespace raylab {
 namespace fs = std::filesystem;
@@ -161,11 +160,11 @@ std::optional<EarlierChart> loadEarlier(const Chart& chart) {
     return EarlierChart{readChartCsv(chart.csvFile()), readPartials(chart)};
 }
 
-void writePartials(const Chart& chart, const std::vector<PartialSeeds>& partials) {
+void writePartials(const Chart& chart) {
     std::error_code code;
     fs::remove_all(partialFolder(chart), code);
-    for (size_t i = 0; i < partials.size(); ++i) {
-        const PartialSeeds& partial = partials[i];
+    for (size_t i = 0; i < chart.partials.size(); ++i) {
+        const PartialSeeds& partial = chart.partials[i];
         writeExr(partialFolder(chart) / (std::to_string(i) + ".exr"),
                  std::array{Layer{"", partial.images.mean()}, Layer{"variance", partial.images.variance()}},
                  {{"config", partial.config},
@@ -174,13 +173,18 @@ void writePartials(const Chart& chart, const std::vector<PartialSeeds>& partials
     }
 }
 
-void writePictures(const Chart& chart, const ChartShot& shot) {
+ChartPictures makePictures(const Chart& chart, const ChartShot& shot) {
     const RenderSettings& settings = chart.plan.configs[shot.config].settings;
-    const uint32_t samples = samplesOfLevel(shot.level);
-    writePng(chart.pictureFile(shot.config, samples),
-             shrunk(tonemapImage(shot.image, settings.exposure, settings.tonemap)));
-    writePng(chart.heatFile(shot.config, samples),
-             shrunk(errorHeatMap(shot.image, chart.references[shot.config]->image.mean)));
+    return {encodeSrgb8(shrunk(tonemapImage(shot.image, settings.exposure, settings.tonemap))),
+            encodeSrgb8(shrunk(errorHeatMap(shot.image, chart.references[shot.config]->image.mean)))};
+}
+
+void writePictures(const Chart& chart, size_t config, uint32_t samples, const ChartPictures& pictures) {
+    const auto write = [](const fs::path& file, const Image8& image) {
+        writeFileAtomically(file, encodePng8(image.texels, image.width, image.height));
+    };
+    write(chart.pictureFile(config, samples), pictures.image);
+    write(chart.heatFile(config, samples), pictures.heat);
 }
 
 }  // namespace raylab

@@ -1,4 +1,4 @@
-#include "ui/cli/chart_svg.h"
+#include "ui/report/chart_svg.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "ui/cli/chart_output.h"
+#include "engine/measure/log_axis.h"
+#include "ui/report/chart_output.h"
 
 namespace raylab {
 namespace {
@@ -36,11 +37,12 @@ constexpr const char* kStyle = R"(<style>
 </style>
 )";
 
+/// An axis on the paper.
 struct Axis {
-    double low = 0.0, high = 1.0;  ///< decimal logarithms
-    double from = 0.0, to = 1.0;   ///< pixels
+    LogAxis values;
+    double from = 0.0, to = 1.0;  ///< pixels
 
-    double at(double value) const { return from + (std::log10(value) - low) / (high - low) * (to - from); }
+    double at(double value) const { return from + values.partOf(value) * (to - from); }
 };
 
 std::string text(const char* format, double a, double b = 0.0, double c = 0.0, double d = 0.0) {
@@ -51,18 +53,6 @@ std::string text(const char* format, double a, double b = 0.0, double c = 0.0, d
 
 double clampedEnd(double end, double value) { return std::isfinite(end) && end > 0.0 ? end : value; }
 
-/// Around the values, with some room.
-Axis axisAround(const std::vector<double>& values, double from, double to) {
-    Axis axis{0.0, 1.0, from, to};
-    if (values.empty()) return axis;
-    axis.low = std::log10(std::ranges::min(values));
-    axis.high = std::log10(std::ranges::max(values));
-    const double room = std::max(0.04 * (axis.high - axis.low), 0.05);
-    axis.low -= room;
-    axis.high += room;
-    return axis;
-}
-
 struct Frame {
     Axis time, error;
 };
@@ -72,34 +62,14 @@ Frame frameOf(const std::vector<ChartCurve>& curves) {
     for (const ChartCurve& curve : curves)
         for (const ChartGroup& group : curve.groups) {
             times.push_back(group.deviceSeconds.value);
-            for (const double error : {group.error.value, group.error.low, group.error.high})
-                if (std::isfinite(error) && error > 0.0) errors.push_back(error);
+            errors.insert(errors.end(), {group.error.value, group.error.low, group.error.high});
         }
-    return {axisAround(times, kLeft, kLeft + kPlotWidth), axisAround(errors, kTop + kPlotHeight, kTop)};
-}
-
-struct Tick {
-    double value;
-    bool isLabelled;
-};
-
-/// Every 1, 2, .. 9 times a power of ten between two decimal logarithms.
-std::vector<Tick> ticksBetween(double low, double high) {
-    constexpr double kSlack = 1e-9;
-    std::vector<Tick> ticks;
-    const double decades = high - low;
-    for (int power = static_cast<int>(std::floor(low)); power <= high; ++power)
-        for (int digit = 1; digit < 10; ++digit) {
-            const double value = digit * std::pow(10.0, power), place = std::log10(value);
-            if (place < low - kSlack || place > high + kSlack) continue;
-            ticks.push_back({value, digit == 1 || (decades < 2.5 && (digit == 2 || digit == 5)) || decades < 0.5});
-        }
-    return ticks;
+    return {{logAxisAround(times), kLeft, kLeft + kPlotWidth}, {logAxisAround(errors), kTop + kPlotHeight, kTop}};
 }
 
 std::string drawAxes(const Frame& frame, const std::string& errorLabel) {
     std::string svg;
-    for (const Tick& tick : ticksBetween(frame.time.low, frame.time.high)) {
+    for (const LogTick& tick : logTicks(frame.time.values)) {
         const double x = frame.time.at(tick.value);
         svg += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"", x, x, kTop, kTop + kPlotHeight) +
                (tick.isLabelled ? "grid\"/>\n" : "minor\"/>\n");
@@ -107,7 +77,7 @@ std::string drawAxes(const Frame& frame, const std::string& errorLabel) {
             svg += text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x, kTop + kPlotHeight + 19.0) +
                    secondsText(tick.value) + "</text>\n";
     }
-    for (const Tick& tick : ticksBetween(frame.error.low, frame.error.high)) {
+    for (const LogTick& tick : logTicks(frame.error.values)) {
         const double y = frame.error.at(tick.value);
         svg += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"", kLeft, kLeft + kPlotWidth, y, y) +
                (tick.isLabelled ? "grid\"/>\n" : "minor\"/>\n");
@@ -268,7 +238,7 @@ std::string xmlEscaped(const std::string& raw) {
 
 std::vector<double> axisNumbers(double low, double high) {
     std::vector<double> numbers;
-    for (const Tick& tick : ticksBetween(std::log10(low), std::log10(high)))
+    for (const LogTick& tick : logTicks({std::log10(low), std::log10(high)}))
         if (tick.isLabelled) numbers.push_back(tick.value);
     return numbers;
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/cli/chart_files.h"
+#include "ui/report/chart_files.h"
 
 namespace raylab {
 
@@ -37,6 +37,9 @@ void writeChartJson(const Chart& chart);
 
 /// chart.json, chart.svg, chart.gnuplot, report.html, and chart.png where gnuplot is installed.
 void writeChartOutput(const Chart& chart);
+
+/// All files of a chart that has ended but its pictures.
+void writeChart(const Chart& chart);
 
 /// The curves and the answer, to standard output.
 void printChart(const Chart& chart);

@@ -3,7 +3,7 @@
 
 #include "engine/core/file.h"
 #include "engine/image/image_io.h"
-#include "ui/cli/stability_output.h"
+#include "ui/report/stability_output.h"
 
 namespace raylab {
 namespace {

@@ -1,4 +1,4 @@
-#include "ui/cli/chart_configs.h"
+#include "ui/report/chart_configs.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include "engine/render/device_defaults.h"
 #include "engine/render/integrators.h"
 #include "engine/render/tracer.h"
-#include "ui/cli/settings_file.h"
-#include "ui/cli/variations.h"
+#include "ui/report/settings_file.h"
+#include "ui/report/variations.h"
 
 namespace raylab {
 namespace {

@@ -1,4 +1,4 @@
-#include "ui/cli/variations.h"
+#include "ui/report/variations.h"
 
 #include <sstream>
 

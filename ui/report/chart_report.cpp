@@ -1,4 +1,4 @@
-#include "ui/cli/chart_report.h"
+#include "ui/report/chart_report.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "engine/core/file.h"
-#include "ui/cli/chart_svg.h"
+#include "ui/report/chart_svg.h"
 
 namespace raylab {
 namespace {
