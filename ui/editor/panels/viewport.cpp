@@ -186,6 +186,7 @@ void drawViewportPanel(EditorContext& context) {
     drawViewOverlay(context);
     keepTrees(context);
     drawBvhOverlay(context);
+    drawHeatScale(context);
     const bool onHandle = drawGizmo(context);
     if (!onHandle) pickByPointer(context, v);
 }
