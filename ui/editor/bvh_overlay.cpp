@@ -33,6 +33,16 @@ void drawNode(const TreeInspection& trees, const TreeNode& at, const LinePainter
 
 bool isStale(const BvhState& state) { return state.builds[state.shown].isBuilding; }
 
+/// Grey where a node holds several: in the upper tree, and above the leaves of merged meshes.
+glm::vec3 instanceColor(const TreeInspection& trees, const TreeNode& at) {
+    uint32_t instance = trees.instance(at);
+    if (instance == shared::kInheritInstance && trees.isLeaf(at)) {
+        const uint32_t slot = trees.data.trees[at.tree].firstSlot + trees.fact(at).firstSlot;
+        instance = trees.data.triangles[slot].instance & shared::kInstanceMask;
+    }
+    return instance == shared::kInheritInstance ? glm::vec3(0.6f) : editor::categoryColor(instance);
+}
+
 BoxView boxView(const EditorContext& context) {
     const Camera& camera = context.state.camera;
     const CameraAxes axes = cameraAxes(camera);
@@ -202,7 +212,7 @@ glm::vec3 boxColor(const BvhState& state, const TreeInspection& trees, const Tre
         case BoxColor::primitives:
             return mapColor(state.map, std::log2(std::max(static_cast<double>(fact.primitives), 1.0)) / 20.0);
         case BoxColor::instance:
-            return editor::categoryColor(at.tree == kUpperTree ? 0u : at.placement + 1u);
+            return instanceColor(trees, at);
     }
     return glm::vec3(1.0f);
 }

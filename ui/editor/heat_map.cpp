@@ -151,7 +151,11 @@ void drawHeatMap(EditorContext& context) {
     const ViewRectangle& r = context.view;
     context.images.draw(*ImGui::GetWindowDrawList(), heat.image, {r.x, r.y}, {r.x + r.width, r.y + r.height},
                         {0.0f, 0.0f}, {1.0f, 1.0f}, true);
-    drawScale(context, heat);
+}
+
+void drawHeatScale(EditorContext& context) {
+    const auto& heat = context.states.get<HeatState>();
+    if (heat.show && isOfThisView(context, heat)) drawScale(context, heat);
 }
 
 }  // namespace raylab

@@ -95,7 +95,9 @@ struct HeatState {
 /// Counts anew where the view rests on something else, and colours what is shown; once a frame, nothing is waited for.
 void keepHeatMap(EditorContext& context);
 
-/// Draws the map over the viewport's picture, with its scale and the count under the pointer.
+/// Draws the map over the viewport's picture; nothing while it is one of another view.
 void drawHeatMap(EditorContext& context);
+/// Its scale with the count under the pointer, over all else.
+void drawHeatScale(EditorContext& context);
 
 }  // namespace raylab

@@ -110,14 +110,17 @@ void drawStepDetails(const RaySteps& ray) {
 
 /// Which of the rays, and where it ends.
 void drawBounces(RaySteps& ray) {
-    for (size_t i = 0; i < ray.bounces.size() && ray.bounces.size() > 1; ++i) {
-        const std::string name = i == 0 ? "view ray" : "bounce " + std::to_string(i);
-        if (ImGui::RadioButton(name.c_str(), ray.bounce == i)) {
-            ray.bounce = i;
-            ray.step = 0;
-        }
-        ImGui::SameLine();
+    const auto name = [](size_t i) { return i == 0 ? std::string("view ray") : "bounce " + std::to_string(i); };
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6.5f);
+    if (ImGui::BeginCombo("##bounce", name(ray.bounce).c_str())) {
+        for (size_t i = 0; i < ray.bounces.size(); ++i)
+            if (ImGui::Selectable(name(i).c_str(), ray.bounce == i)) {
+                ray.bounce = i;
+                ray.step = 0;
+            }
+        ImGui::EndCombo();
     }
+    ImGui::SameLine();
     const RayWalk& walk = ray.walk();
     const std::string end = walk.hit ? "hits at t " + distanceText(walk.hit->t) : "misses";
     ImGui::TextColored(color::kDim, "%s", end.c_str());

@@ -49,7 +49,10 @@ void drawNodeRow(TreeDrawing& drawing, const TreeNode& at) {
     if (isOnTheWay && !isSelected) ImGui::SetNextItemOpen(true);
     const bool open = ImGui::TreeNodeEx("node", flags, "%s", nodeName(trees, at).c_str());
     if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) drawing.state.select(at, false);
-    if (isSelected && isOnTheWay) ImGui::SetScrollHereY(0.5f);
+    if (isSelected && isOnTheWay) {
+        ImGui::SetScrollHereY(0.5f);
+        ImGui::SetScrollX(std::max(ImGui::GetCursorPosX() - 2.0f * kIndent, 0.0f));
+    }
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("depth %u, %s primitives\nSAH: %s %% of its tree\noverlap with its sibling: %s %%",
                           trees.depth(at), countText(trees.fact(at).primitives).c_str(),

@@ -191,6 +191,7 @@ void drawViewportPanel(EditorContext& context) {
     drawViewOverlay(context);
     keepTrees(context);
     drawBvhOverlay(context);
+    drawHeatScale(context);
     const bool onHandle = drawComparisonHandles(context) || drawGizmo(context);
     if (!onHandle) pickByPointer(context, v);
 }
