@@ -128,8 +128,9 @@ struct Roundings {
     vec3 inset;      // to add to the position
 };
 
-// The test's t is a mean of the vertices' distances by edge functions, whose products round in proportion to the square of the
-// length: over the area, that is the length over the height. No further than the triangle is high.
+// Drivers' tests take t as a mean of the vertices' distances by edge functions, whose products round in proportion to the square
+// of the length: over the area, that is the length over the height. Ours errs less (planeDistance() in trace/triangle.glsl), but
+// paths are to be the same on all tracers. No further than the triangle is high.
 // A hit beside an edge may be rounded to a place beyond it, behind the wall that stands there: it is moved inwards, in the
 // plane, until it is as far from each edge as the position and the wall's distance may be wrong, or a quarter of the
 // triangle's height above it where that is less. In units of the longest edge, whose square may overflow.

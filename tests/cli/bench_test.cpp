@@ -61,6 +61,26 @@ TEST_F(Bench, RowsSayWhatOthersRelyOn) {
     EXPECT_EQ(static_cast<size_t>(std::ranges::count(csv, '\n')), result["rows"].size() + 1);
 }
 
+TEST_F(Bench, CostsAreFittedPerLayout) {
+    ASSERT_EQ(runProgram("bench cornell --costs --vary layout=bvh2,bvh2q --rays primary,shadow,diffuse --json a.json" +
+                         kFewRays),
+              0)
+        << text("err");
+    const Json result = json("a.json");
+    std::set<std::string> layouts;
+    for (const Json& costs : result["costs"]) {
+        layouts.insert(costs["layout"].get<std::string>());
+        EXPECT_EQ(costs["triangle"], "watertight");
+        // Three kinds of rays, four views, two trees; a view that sees nothing has primary rays alone.
+        EXPECT_GE(costs["samples"], 4 * 2);
+        EXPECT_LE(costs["samples"], 3 * 4 * 2);
+        EXPECT_GT(costs["nsPerNode"]["standardError"], 0.0);
+        EXPECT_GT(costs["relativeResidual"], 0.0);
+    }
+    EXPECT_EQ(layouts, (std::set<std::string>{"bvh2", "bvh2q"}));
+    EXPECT_EQ(runProgram("bench cornell --costs --tune" + kFewRays), 2) << text("err");
+}
+
 TEST_F(Bench, CompareFindsWhatBecameSlower) {
     const std::string bench = "bench cornell --rays primary" + kFewRays;
     ASSERT_EQ(runProgram(bench + " --json a.json"), 0) << text("err");

@@ -19,17 +19,10 @@ TEST_F(Instances, TrucksMirroredShearedAndSingular) {
     }
 }
 
-/// S12. The bead of 1e-3 beside a plane of 1e4: the error of a distance grows with the triangle, not with the distance.
-/// Measured on lavapipe, 52 of 1950 decidable rays see bead and plane in the wrong order, in every layout. Twice that
-/// is the bound.
+/// S12, the bead of 1e-3 beside a plane of 1e4 too: the error of a distance must not grow with the triangle.
 TEST_F(Instances, ScaleDoesNotShow) {
-    for (const RenderSettings& settings : everyLayout()) {
-        std::vector<Number> numbers = stability::measureScales(contextOf(settings));
-        EXPECT_LE(numbers.back().value, 104.0 / 1950.0) << nameOf(settings) << ": " << numbers.back().note;
-        numbers.pop_back();
-        EXPECT_EQ(numbers.size(), 4u);
-        expectPass(numbers, nameOf(settings));
-    }
+    for (const RenderSettings& settings : everyLayout())
+        expectPass(stability::measureScales(contextOf(settings)), nameOf(settings));
 }
 
 }  // namespace

@@ -129,6 +129,15 @@ TEST(AccelTriangle, ClosedForm) {
         << "in its plane";
 }
 
+TEST(AccelTriangle, DistanceIsThatOfThePlaneHoweverLargeTheTriangle) {
+    const glm::vec3 p0(-1e4f, 0, -1e4f), p1(1e4f, 0, -1e4f), p2(0, 0, 1e4f);
+    // From a height of 2^-10 down by 2^-6 a unit: at 2^-4. The vertices' distances round at 1e4 * 2^-24 = 6e-4.
+    const WatertightRay ray = makeWatertightRay({0.3f, 0x1p-10f, 0.2f}, {0.9f, -0x1p-6f, 0.4f});
+    float t = 0.0f, u = 0.0f, v = 0.0f;
+    ASSERT_TRUE(intersectWatertight(ray, p0, p1, p2, 0.0f, 1.0f, t, u, v));
+    EXPECT_FLOAT_EQ(t, 0x1p-4f);
+}
+
 TEST(AccelTriangle, EveryOrderOfVerticesGivesTheSameDistance) {
     Random random(41);
     size_t hits = 0;

@@ -27,6 +27,7 @@ struct BenchOptions {
     bool materials = false;
     bool tune = false;
     bool scaling = false;
+    bool costs = false;
 };
 
 /// One configuration that is measured.
@@ -59,8 +60,9 @@ Scene loadBenchScene(const std::string& name, bool materials);
 
 SceneRows benchScene(Device& device, const std::string& name, const Scene& scene, const BenchPlan& plan);
 
-/// The modes of `raylab bench` besides the plain one: in bench_tune.cpp and bench_scaling.cpp.
+/// The modes of `raylab bench` besides the plain one: in bench_tune.cpp, bench_scaling.cpp and bench_costs.cpp.
 ExitCode benchTune(const BenchOptions& options);
 ExitCode benchScaling(const BenchOptions& options);
+ExitCode benchCosts(const BenchOptions& options);
 
 }  // namespace raylab

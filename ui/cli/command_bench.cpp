@@ -52,6 +52,7 @@ ExitCode bench(const BenchOptions& options) {
         throw Error(options.scaling ? "--scaling makes its own scenes; name none" : "name a scene to measure");
     requireFiles(options);
     if (options.scaling) return benchScaling(options);
+    if (options.costs) return benchCosts(options);
     return options.tune ? benchTune(options) : benchScenes(options);
 }
 
@@ -81,6 +82,14 @@ void addBenchCommand(CLI::App& app, Command& chosen) {
                        "FILE's name with .gnuplot, and .svg where gnuplot is installed")
             ->excludes(compare)
             ->excludes(tune);
+    command
+        ->add_flag(
+            "--costs", options->costs,
+            "fit what a node and a triangle cost: what --traversal-cost and --intersection-cost should be; every "
+            "layout and triangle test, or what --vary names")
+        ->excludes(compare)
+        ->excludes(tune)
+        ->excludes(scaling);
     command->add_option("--largest", options->largest, "triangles of the largest cave of --scaling")
         ->check(CLI::Range(10'000, 100'000'000))
         ->needs(scaling)

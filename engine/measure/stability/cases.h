@@ -23,7 +23,8 @@ std::vector<Number> measureAxisRaysAgainst(const Context& context, const AxisAns
 std::vector<Number> measureAxisRays(const Context& context);
 
 // Shapes: cases_shapes.cpp.
-/// S8: needles, wrong hits that no rounding excuses, those of exact arithmetic, non-finite ones, degenerate triangles.
+/// S8: needles, wrong hits that no rounding excuses, those of exact arithmetic, wrong distances, non-finite ones,
+/// degenerate triangles.
 std::vector<Number> measureNeedles(const Context& context);
 std::vector<Number> measureDegenerateFiles(const Context& context);
 /// S12: wrong hits at scales of 1e-4 and 1e4, and of a bead beside a plane.
