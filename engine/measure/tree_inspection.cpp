@@ -1,16 +1,12 @@
 #include "engine/measure/tree_inspection.h"
 
 #include <algorithm>
-#include <queue>
 
 #include "engine/core/stopwatch.h"
 #include "engine/measure/bvh_report.h"
 
 namespace raylab {
 namespace {
-
-/// A search for boxes opens no more nodes than this: a second at most, whatever the scene.
-constexpr size_t kMostOpened = size_t{1} << 20;
 
 /// The same trees in a layout that keeps the order of their primitives.
 TraceConfig inOrder(TraceConfig config) {
@@ -123,29 +119,6 @@ size_t countBoxes(const TreeInspection& trees, const BoxFilter& filter) {
     for (const TreePlacement& placement : trees.placements)
         sum += countBetween(counts[placement.tree], placement.rootDepth, filter);
     return sum;
-}
-
-std::vector<TreeNode> largestBoxes(const TreeInspection& trees, const BoxFilter& filter, size_t limit) {
-    struct Entry {
-        double area;
-        TreeNode at;
-        bool operator<(const Entry& other) const { return area < other.area; }
-    };
-    std::vector<TreeNode> found;
-    if (trees.empty()) return found;
-    const auto entryOf = [&](const TreeNode& at) { return Entry{halfAreaDouble(worldBox(trees, at)), at}; };
-    std::priority_queue<Entry> open;
-    open.push(entryOf(trees.root()));
-    for (size_t opened = 0; !open.empty() && found.size() < limit && opened < kMostOpened; ++opened) {
-        const TreeNode at = open.top().at;
-        open.pop();
-        const uint32_t depth = trees.depth(at);
-        if (depth >= filter.depthMin && depth <= filter.depthMax && (!filter.leavesOnly || trees.isLeaf(at)))
-            found.push_back(at);
-        if (depth >= filter.depthMax) continue;
-        for (const TreeNode& child : trees.children(at)) open.push(entryOf(child));
-    }
-    return found;
 }
 
 Aabb worldBox(const TreeInspection& trees, const TreeNode& at) {

@@ -81,10 +81,6 @@ struct BoxFilter {
 /// How many boxes a filter lets through, each placement of a tree counted.
 size_t countBoxes(const TreeInspection& trees, const BoxFilter& filter);
 
-/// The largest of them by the area of their boxes in the world, largest first, `limit` at most. A child's box is within
-/// that of its parent, so a search from the root that always opens the largest comes upon them in this order.
-std::vector<TreeNode> largestBoxes(const TreeInspection& trees, const BoxFilter& filter, size_t limit);
-
 /// Axis-aligned in the world, around a node's box, as far as that is within the bounds of its placement.
 Aabb worldBox(const TreeInspection& trees, const TreeNode& at);
 

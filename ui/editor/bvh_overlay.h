@@ -27,7 +27,7 @@ std::optional<Bounds> selectedNodeBox(EditorContext& context);
 /// The ray through a point of the picture.
 WalkRay rayThroughView(const EditorContext& context, float x, float y);
 
-/// Colour of a node's box by what the panel chose, with the ends of its scale in words.
+/// Colour of a node's box by what the panel chose.
 glm::vec3 boxColor(const BvhState& state, const TreeInspection& trees, const TreeNode& at);
 
 }  // namespace raylab
