@@ -2,12 +2,13 @@
 #include <cstdio>
 
 #include "engine/measure/hit_oracle.h"
+#include "engine/measure/stability/cases.h"
 #include "engine/render/ray_caster.h"
 #include "tests/support/trace_choice.h"
 #include "tests/support/trace_oracle.h"
 #include "tests/support/trace_rays.h"
 
-/// S1, S2, S7, S9, S11 on the tracers over the driver's structures. They are not tight, and they break ties as the driver
+/// S1, S2, S7, S9, S11, S22 on the tracers over the driver's structures. They are not tight, and they break ties as the driver
 /// likes: the numbers are bounded by what was measured on lavapipe (Mesa 25.0.7), and ours is held against the same rays.
 namespace raylab::support {
 namespace {
@@ -40,6 +41,24 @@ TEST_F(DriverTracers, LeakAFewOfAMillionRaysAtEdges) {
         std::printf("%-10s %zu of %zu rays at edges leak\n", settings.tracer.c_str(), leaks, rays.size());
         EXPECT_LE(leaks, rays.size() / 50) << settings.tracer;
     }
+}
+
+/// S2: a square cut at random into 20,000 triangles; 65,536 rays, as in the Khronos conformance tests.
+TEST_F(DriverTracers, HitACutSquareOnce) {
+    for (const RenderSettings& settings : tracers()) {
+        const std::vector<stability::Number> numbers = stability::measureSingleHit({.device = device_, .settings = settings});
+        std::printf("%-10s %g misses, %g double hits\n", settings.tracer.c_str(), numbers[0].value, numbers[1].value);
+        EXPECT_EQ(numbers[0].value, 0.0) << settings.tracer;
+        EXPECT_EQ(numbers[1].value, 0.0) << settings.tracer;
+    }
+}
+
+/// S22: the same bits again, and by dispatches of 1 and 400 ms.
+TEST_F(DriverTracers, RenderTheSameBitsAgain) {
+    for (const RenderSettings& settings : tracers())
+        for (const stability::Number& number :
+             stability::measureDeterminism({.device = device_, .settings = settings, .quick = true}))
+            EXPECT_TRUE(number.passes()) << settings.tracer << ": " << number.what << " " << number.value;
 }
 
 /// Rays that miss all edges.
