@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "ui/report/chart_output.h"
 #include "ui/report/chart_report.h"
