@@ -14,11 +14,12 @@
 #include "engine/render/kernel_use.h"
 #include "engine/render/lighting.h"
 #include "engine/render/prepared_settings.h"
-#include "engine/render/ray_caster.h"
 #include "engine/render/renderer.h"
 #include "ui/editor/model/edit_kinds.h"
 #include "ui/editor/picture.h"
+#include "ui/editor/render_status.h"
 #include "ui/editor/time_text.h"
+#include "ui/editor/view_caster.h"
 
 namespace raylab {
 namespace {
@@ -85,8 +86,7 @@ private:
     /// All that was on the lost device is made anew from the scene that is wanted, at the next task, which this asks for.
     /// Where nothing is left to be tried the device is fresh too, and waits for a request of other geometry or a reload.
     void recover(const DeviceLost& loss) {
-        caster_.reset();
-        hits_.reset();
+        caster_.forget();
         renderer_.reset();
         prepared_.reset();
         rendering_ = false;
@@ -207,8 +207,7 @@ private:
         report(RenderPhase::preparing, "Compiling the kernel");
         refreshSources(traversalOf(*prepared));
         auto renderer = std::make_unique<Renderer>(device_.get(), prepared, settings);
-        caster_.reset();
-        hits_.reset();
+        caster_.forget();
         renderer_ = std::move(renderer);
         prepared_ = std::move(prepared);
         isPrepared_ = true;
@@ -247,8 +246,7 @@ private:
         keepBackdrop();
         report(RenderPhase::preparing, "Compiling the kernel");
         auto renderer = std::make_unique<Renderer>(device_.get(), prepared_, filmSettings());
-        caster_.reset();
-        hits_.reset();
+        caster_.forget();
         renderer_ = std::move(renderer);
         describe();
         begin();
@@ -260,15 +258,14 @@ private:
             return prepare();
         }
         const Scene scene = settledScene();
-        caster_.reset();
-        hits_.reset();
+        caster_.forget();
         renderer_->update(scene, {.instances = true, .meshes = {}});
         restart("");
     }
 
     void updateShading() {
         const Scene scene = settledScene();
-        caster_.reset();
+        caster_.forget();
         updateSettings(device_.get(), scene, effectiveSettings(), *prepared_);
         restart("Compiling the kernel");
     }
@@ -364,70 +361,26 @@ private:
     /// What lies behind the film's pixels; nullptr where nobody asked, or while things move that a caster would have to
     /// be made for anew each time.
     std::shared_ptr<const HitMap> lookBehind(uint32_t width, uint32_t height) {
-        if (!wanted_.wantsHits || (wanted_.moving && !caster_)) return nullptr;
-        const Camera& camera = prepared_->camera;
-        if (!hits_ || hits_->width != width || hits_->height != height || !(hits_->camera == camera))
-            hits_ = std::make_shared<const HitMap>(traceHitMap(caster(), camera, width, height));
-        return hits_;
+        if (!wanted_.wantsHits || (wanted_.moving && !caster_.isReady())) return nullptr;
+        return caster_.lookBehind(width, height, device_.get(), prepared_, effectiveSettings());
     }
 
-    RayCaster& caster() {
-        if (!caster_) caster_ = std::make_unique<RayCaster>(device_.get(), prepared_, effectiveSettings());
-        return *caster_;
-    }
-
-    /// What only changes with the kernel or the scene.
     void describe() {
-        session_.report([&](RenderStatus& status) {
-            const RenderTimes& times = renderer_->times();
-            status.buildSeconds = times.build;
-            status.uploadSeconds = times.upload;
-            status.compileSeconds = times.compile;
-            status.needs = prepared_->needs.needs;
-            status.kernelNeeds = prepared_->kernelNeeds;
-            status.tracer = prepared_->tracer->info().name;
-            status.sceneBytes = prepared_->gpu->memoryBytes();
-            status.traceBytes = prepared_->tracer->memoryBytes();
-        });
+        session_.report([&](RenderStatus& status) { describeKernel(*renderer_, status); });
     }
 
     void describeProgress(const FilmImage* film) {
-        const RenderTimes& times = renderer_->times();
-        const double done = renderer_->fractionDone();
         session_.report([&](RenderStatus& status) {
-            status.samples = renderer_->completeSamples();
-            status.samplesWanted = static_cast<uint32_t>(wanted_.settings.spp);
+            describeFilm(*renderer_, wanted_.settings, film, status);
             status.relativeError = lastNoise_;
-            status.seconds = times.render;
-            status.secondsLeft = done > 0.0 ? times.render * (1.0 - done) / done : 0.0;
-            if (wanted_.settings.timeLimit > 0.0)
-                status.secondsLeft =
-                    std::min(status.secondsLeft, std::max(wanted_.settings.timeLimit - times.render, 0.0));
-            status.longestDispatch = times.longestDispatch;
             status.divisor = divisor_;
-            status.filmBytes = renderer_->filmBytes() + renderer_->queueBytes();
-            if (film == nullptr) return;
-            status.width = static_cast<uint32_t>(film->mean.width);
-            status.height = static_cast<uint32_t>(film->mean.height);
-            if (times.render > 0.0) status.raysPerSecond = static_cast<double>(film->rays) / times.render;
         });
         sinceStatus_.restart();
     }
 
     void answerPick(const RenderSession::PickTask& task) {
-        PickResult result{.ticket = task.ticket};
-        if (renderer_) {
-            const shared::RayData ray = viewRay(task.camera, task.aspect, task.x, task.y);
-            const shared::HitData hit = caster().closest(std::span(&ray, 1)).front();
-            result.hit = hit.t >= 0.0f;
-            if (result.hit) {
-                result.instance = hit.instance;
-                result.primitive = hit.primitive;
-                result.distance = hit.t;
-                result.position = ray.origin + hit.t * ray.direction;
-            }
-        }
-        session_.answer(result);
+        session_.answer(renderer_ ? caster_.pick(task, device_.get(), prepared_, effectiveSettings())
+                                  : PickResult{.ticket = task.ticket});
     }
 
     static constexpr double kUnknownCost = 1e-6;  ///< seconds a pixel: a guess that leads to small pictures at first
@@ -439,9 +392,8 @@ private:
     RenderRequest wanted_;
     std::shared_ptr<PreparedScene> prepared_;
     std::unique_ptr<Renderer> renderer_;
-    std::unique_ptr<RayCaster> caster_;
-    std::shared_ptr<const HitMap> hits_;  ///< of the last picture that knew them
-    uint64_t shaders_ = 0;                ///< state of the sources that kernels are of
+    ViewCaster caster_;
+    uint64_t shaders_ = 0;     ///< state of the sources that kernels are of
     bool isPrepared_ = false;  ///< what is wanted: the last prepare() did not throw
     bool rendering_ = false;
     bool paused_ = false;
