@@ -51,8 +51,9 @@ bool isTree(const Bvh& bvh, uint32_t primitiveCount) {
 template <class Item>
 void takeItems(std::span<const std::byte>& bytes, std::vector<Item>& items, uint64_t count) {
     items.resize(count);
-    std::memcpy(items.data(), bytes.data(), count * sizeof(Item));
-    bytes = bytes.subspan(count * sizeof(Item));
+    const std::span<const std::byte> taken = bytes.first(count * sizeof(Item));
+    std::ranges::copy(taken, std::as_writable_bytes(std::span(items)).begin());
+    bytes = bytes.subspan(taken.size());
 }
 
 std::optional<Bvh> treeIn(std::span<const std::byte> bytes) {

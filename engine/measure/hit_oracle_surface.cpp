@@ -192,6 +192,10 @@ std::optional<Candidate> intersectTriangle(const WorldRay& ray, const Placement&
         if (edge.distance >= nearest) continue;
         nearest = edge.distance;
         candidate.t = seen.t[i] + edge.fraction * (seen.t[next] - seen.t[i]);
+        glm::dvec3 weights(0.0);
+        weights[static_cast<int>(i)] = 1.0 - edge.fraction;
+        weights[static_cast<int>(next)] = edge.fraction;
+        candidate.barycentrics = {weights.y, weights.z};
     }
     if (!inside && nearest > kNeighbourMargins * candidate.margin) return std::nullopt;
     if (inside) candidate.t = (u * seen.t[0] + v * seen.t[1] + w * seen.t[2]) / determinant;

@@ -307,6 +307,18 @@ TEST(HitOracle, MasksByBilinearAlpha) {
     EXPECT_EQ(verdictAt(0.501f), Verdict::bRight);
 }
 
+TEST(HitOracle, LooksUpTheAlphaOfANeighbourWhereTheRayPassesIt) {
+    const Scene scene = cutOutScene(AlphaMode::mask);
+    const HitOracle oracle(scene);
+    // A float beside the diagonal, over the second triangle; both share the corner at the origin, which is opaque.
+    const auto verdictOnNeighbour = [&](float x) {
+        const shared::RayData ray = downAt(x, std::nextafter(x, 1.0f));
+        return oracle.judgeClosest(ray, 0, hitAt(2.0, 0, 0), kMiss).verdict;
+    };
+    EXPECT_EQ(verdictOnNeighbour(0.3f), Verdict::aRight);
+    EXPECT_EQ(verdictOnNeighbour(0.7f), Verdict::bRight);
+}
+
 TEST(HitOracle, BlendsAsOftenAsAlphaSays) {
     Scene scene = squareScene();
     scene.materials[0].alphaMode = AlphaMode::blend;
