@@ -55,13 +55,17 @@ public:
     SceneHasher& operator<<(const PhongMaterial& p) {
         return *this << p.diffuse << p.specular << p.exponent << p.mirror << p.tint << p.reflection << p.ior;
     }
+    SceneHasher& operator<<(const LobeTextures& t) {
+        return *this << t.clearcoat << t.clearcoatRoughness << t.clearcoatNormal << t.clearcoatNormalScale << t.sheenColor
+                     << t.sheenRoughness << t.anisotropy << t.specular << t.specularColor << t.transmission;
+    }
     SceneHasher& operator<<(const Material& m) {
         return *this << m.baseColor << m.alpha << m.baseColorTexture << m.metallic << m.roughness
                      << m.metallicRoughnessTexture << m.normalTexture << m.normalScale << m.emission
                      << m.emissionTexture << m.alphaMode << m.alphaCutoff << m.transmission << m.ior << m.thin
                      << m.specular << m.doubleSided << m.specularColor << m.clearcoat << m.clearcoatRoughness
                      << m.sheenColor << m.sheenRoughness << m.anisotropy << m.anisotropyRotationRadians
-                     << m.attenuationColor << m.attenuationDistance << m.priority << m.phong;
+                     << m.attenuationColor << m.attenuationDistance << m.lobeTextures << m.priority << m.phong;
     }
     SceneHasher& operator<<(const Quadric& q) { return *this << q.kind << q.radii << q.clipLow << q.clipHigh; }
     SceneHasher& operator<<(const Mesh& m) {

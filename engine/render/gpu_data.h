@@ -69,6 +69,10 @@ std::vector<shared::PhongData> packPhong(const Scene& scene);
 
 /// The lobes of materials that few have, one entry a material.
 std::vector<shared::LobeData> packLobes(const Scene& scene);
+std::vector<shared::LobeTextureData> packLobeTextures(const Scene& scene);
+
+/// A material's index of a texture as the kernels have it.
+uint32_t textureIndex(int32_t texture);
 
 /// How next event estimation chooses: by a tree over lights; in proportion to the power that lights send out; or uniformly:
 /// kinds of light, punctual lights and the area of lamps evenly. A tree wants two lights at least, else the choice is by power.

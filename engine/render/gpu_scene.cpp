@@ -26,6 +26,7 @@ constexpr TexelBinding kMaterials = kWords(shared::kBindMaterials, "materials");
 constexpr TexelBinding kPhong = kWords(shared::kBindPhong, "Phong materials");
 constexpr TexelBinding kAlbedo = kWords(shared::kBindAlbedo, "directional albedos");
 constexpr TexelBinding kLobes = kWords(shared::kBindLobes, "lobes of materials");
+constexpr TexelBinding kLobeTextures = kWords(shared::kBindLobeTextures, "textures of lobes");
 constexpr TexelBinding kTextures = kWords(shared::kBindTextures, "textures");
 constexpr TexelBinding kTexels = {shared::kBindTexels, "texels", VK_FORMAT_R32_UINT, 4};
 constexpr TexelBinding kEmissive = kWords(shared::kBindEmissive, "emissive triangles");
@@ -77,6 +78,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightC
     add(kPhong, packPhong(scene));
     add(kAlbedo, albedoTables(scene));
     add(kLobes, packLobes(scene));
+    add(kLobeTextures, packLobeTextures(scene));
     add(kTextures, materials.textures);
     add(kTexels, materials.texels);
     add(kEmissive, lights_.emissive);
@@ -99,8 +101,8 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightC
 std::vector<BindingInfo> GpuScene::bindings() {
     std::vector<BindingInfo> infos;
     for (const TexelBinding& b :
-         {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kPhong, kAlbedo, kLobes, kTextures, kTexels, kEmissive,
-          kPunctual, kLightNodes, kLightTrails, kEnvironment, kAlias})
+         {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kPhong, kAlbedo, kLobes, kLobeTextures, kTextures, kTexels,
+          kEmissive, kPunctual, kLightNodes, kLightTrails, kEnvironment, kAlias})
         infos.push_back({b.binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
     return infos;
 }

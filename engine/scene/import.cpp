@@ -67,7 +67,9 @@ void supplyTangents(Scene& scene) {
     tbb::parallel_for(size_t{0}, scene.meshes.size(), [&scene](size_t m) {
         Mesh& mesh = scene.meshes[m];
         const Material& material = scene.materials[mesh.material];
-        if (material.normalTexture != kNoTexture || material.anisotropy > 0.0f) ensureTangents(mesh);
+        if (material.normalTexture != kNoTexture || material.lobeTextures.clearcoatNormal != kNoTexture ||
+            material.anisotropy > 0.0f)
+            ensureTangents(mesh);
     });
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/scene/bounds.h"
+#include "engine/scene/texture_slots.h"
 
 namespace raylab {
 namespace {
@@ -53,8 +54,25 @@ Need materialNeed(uint32_t bit, const char* name, const std::vector<const Materi
 bool isAlphaTested(const Material& m) { return m.alphaMode != AlphaMode::opaque; }
 
 bool hasTexture(const Material& m) {
-    return m.baseColorTexture != kNoTexture || m.metallicRoughnessTexture != kNoTexture ||
-           m.normalTexture != kNoTexture || m.emissionTexture != kNoTexture;
+    return std::ranges::any_of(textureSlots(m), [](const int32_t* texture) { return *texture != kNoTexture; });
+}
+
+/// That kernels read.
+bool hasLobeTexture(const Material& m) {
+    LobeTextures read = m.lobeTextures;
+    read.thickness = kNoTexture;
+    return read != LobeTextures{};
+}
+
+/// glTF has the normal of a clear coat from a texture of its own, or from the mesh.
+bool hasCoatNormal(const Material& m) {
+    const LobeTextures& lobes = m.lobeTextures;
+    if (m.clearcoat <= 0.0f || (m.normalTexture == kNoTexture && lobes.clearcoatNormal == kNoTexture)) return false;
+    return m.normalTexture != lobes.clearcoatNormal || m.normalScale != lobes.clearcoatNormalScale;
+}
+
+bool hasNormalMap(const Material& m) {
+    return m.normalTexture != kNoTexture || (m.clearcoat > 0.0f && m.lobeTextures.clearcoatNormal != kNoTexture);
 }
 
 bool isLit(glm::vec3 color) { return glm::any(glm::greaterThan(color, glm::vec3(0.0f))); }
@@ -150,8 +168,7 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
         transformNeed(scene),
         smoothNeed(scene, plan),
         materialNeed(shared::kNeedTextures, "textures", worn, "with a texture", hasTexture),
-        materialNeed(shared::kNeedNormalMaps, "normal maps", worn, "with a normal map",
-                     [](const Material& m) { return m.normalTexture != kNoTexture; }),
+        materialNeed(shared::kNeedNormalMaps, "normal maps", worn, "with a normal map", hasNormalMap),
         materialNeed(shared::kNeedAlpha, "alpha", worn, "cut out or blended by alpha", isAlphaTested),
         materialNeed(shared::kNeedSpecular, "GGX reflection", worn, "that reflects",
                      [](const Material& m) { return m.metallic > 0.0f || m.specular > 0.0f || hasPhongGloss(m); }),
@@ -166,7 +183,10 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
          scene.environment ? "radiance from infinitely far away" : "black beyond the scene"},
         quadricNeed(scene),
         materialNeed(shared::kNeedSpecularTint, "specular tint", worn, "of coloured dielectric reflection",
-                     [](const Material& m) { return m.metallic < 1.0f && m.specularColor != glm::vec3(1.0f); }),
+                     [](const Material& m) {
+                         return m.metallic < 1.0f && (m.specularColor != glm::vec3(1.0f) ||
+                                                      m.lobeTextures.specularColor != kNoTexture);
+                     }),
         materialNeed(shared::kNeedClearcoat, "clearcoat", worn, "with a clear coat",
                      [](const Material& m) { return m.clearcoat > 0.0f; }),
         materialNeed(shared::kNeedSheen, "sheen", worn, "with sheen", [](const Material& m) { return isLit(m.sheenColor); }),
@@ -177,6 +197,10 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
         materialNeed(shared::kNeedAbsorption, "absorption", worn, "that light fades in", absorbs),
         materialNeed(shared::kNeedNesting, "nested dielectrics", worn, "of a volume with a priority",
                      [](const Material& m) { return isSolid(m) && m.priority > 0; }),
+        materialNeed(shared::kNeedLobeTextures, "textures of lobes", worn, "with a texture of a coat, sheen, transmission...",
+                     hasLobeTexture),
+        materialNeed(shared::kNeedCoatNormals, "normals of coats", worn, "whose clear coat has a normal of its own",
+                     hasCoatNormal),
     };
     for (const Need& need : result.needs)
         if (need.needed) result.mask |= need.bit;

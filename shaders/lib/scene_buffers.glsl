@@ -39,6 +39,7 @@ layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer materialWords;
 layout(set = 0, binding = kBindPhong) uniform usamplerBuffer phongWords;
 layout(set = 0, binding = kBindAlbedo) uniform usamplerBuffer albedoWords;
 layout(set = 0, binding = kBindLobes) uniform usamplerBuffer lobeWords;
+layout(set = 0, binding = kBindLobeTextures) uniform usamplerBuffer lobeTextureWords;
 layout(set = 0, binding = kBindTextures) uniform usamplerBuffer textureWords;
 layout(set = 0, binding = kBindTexels) uniform usamplerBuffer texels;
 layout(set = 0, binding = kBindEmissive) uniform usamplerBuffer emissiveWords;
@@ -85,6 +86,14 @@ LobeData loadLobes(uint material) {
     if (needs(kNeedAnisotropy | kNeedNesting)) d = texelFetch(lobeWords, at + 3);
     vec3 df = uintBitsToFloat(d.xyz);
     return LobeData(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, df.x, df.y, df.z, d.w);
+}
+
+LobeTextureData loadLobeTextures(uint material) {
+    int at = int(material * kWordsLobeTextures);
+    uvec4 a = texelFetch(lobeTextureWords, at);
+    uvec4 b = texelFetch(lobeTextureWords, at + 1);
+    uvec2 c = texelFetch(lobeTextureWords, at + 2).xy;
+    return LobeTextureData(a.x, a.y, a.z, uintBitsToFloat(a.w), b.x, b.y, b.z, b.w, c.x, c.y, 0u, 0u);
 }
 
 PhongData loadPhong(uint material) {

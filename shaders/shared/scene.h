@@ -169,6 +169,24 @@ struct LobeData {
 RAYLAB_CHECK(LobeData, 64);
 RAYLAB_CONST uint kWordsLobe = 4;
 
+// Textures of the lobes; kNoTextureIndex: none.
+struct LobeTextureData {
+    uint clearcoat;
+    uint clearcoatRoughness;
+    uint clearcoatNormal;
+    float clearcoatNormalScale;
+    uint sheenColor;
+    uint sheenRoughness;
+    uint anisotropy;
+    uint specular;
+    uint specularColor;
+    uint transmission;
+    uint padding0;
+    uint padding1;
+};
+RAYLAB_CHECK(LobeTextureData, 48);
+RAYLAB_CONST uint kWordsLobeTextures = 3;
+
 // What the Phong model knows of a material beside MaterialData (engine/scene/scene.h, PhongMaterial).
 struct PhongData {
     vec3 diffuse;

@@ -216,6 +216,17 @@ void emitMaterials() {
     emit(lobes.tangentCos);
     emit(lobes.tangentSin);
     emit(lobes.priority);
+    LobeTextureData textures = loadLobeTextures(1u);
+    emit(textures.clearcoat);
+    emit(textures.clearcoatRoughness);
+    emit(textures.clearcoatNormal);
+    emit(textures.clearcoatNormalScale);
+    emit(textures.sheenColor);
+    emit(textures.sheenRoughness);
+    emit(textures.anisotropy);
+    emit(textures.specular);
+    emit(textures.specularColor);
+    emit(textures.transmission);
     PhongData phong = loadPhong(1u);
     emit(phong.diffuse);
     emit(phong.exponent);

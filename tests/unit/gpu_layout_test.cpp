@@ -54,6 +54,7 @@ struct Structs {
     shared::QuadricData quadric;
     std::array<shared::MaterialData, 2> materials{};
     std::array<shared::LobeData, 2> lobes{};
+    std::array<shared::LobeTextureData, 2> lobeTextures{};
     std::array<shared::PhongData, 2> phong{};
     shared::TextureData texture;
     shared::EmissiveData emissive;
@@ -100,13 +101,15 @@ void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData&
     n.assign(q.radii, q.zz, q.z, q.constant, q.height, q.isEllipsoid);
 }
 
-void numberMaterials(Numbering& n, shared::MaterialData& m, shared::LobeData& l, shared::PhongData& p,
-                     shared::TextureData& t) {
+void numberMaterials(Numbering& n, shared::MaterialData& m, shared::LobeData& l, shared::LobeTextureData& x,
+                     shared::PhongData& p, shared::TextureData& t) {
     n.assign(m.baseColor, m.alpha, m.emission, m.alphaCutoff, m.metallic, m.roughness, m.transmission, m.ior);
     n.assign(m.specular, m.normalScale, m.emissionWeight, m.flags, m.baseColorTexture, m.metallicRoughnessTexture);
     n.assign(m.normalTexture, m.emissionTexture);
     n.assign(l.specularColor, l.clearcoat, l.sheenColor, l.sheenRoughness, l.absorption, l.clearcoatAlpha);
     n.assign(l.anisotropy, l.tangentCos, l.tangentSin, l.priority);
+    n.assign(x.clearcoat, x.clearcoatRoughness, x.clearcoatNormal, x.clearcoatNormalScale, x.sheenColor);
+    n.assign(x.sheenRoughness, x.anisotropy, x.specular, x.specularColor, x.transmission);
     n.assign(p.diffuse, p.exponent, p.specular, p.reflection, p.mirror, p.ior, p.tint, p.isGiven);
     n.assign(t.firstTexel, t.width, t.height, t.flags);
 }
@@ -128,7 +131,7 @@ std::vector<uint32_t> numberAll(Structs& s) {
     numberBuffers(numbering, s);
     numberTraversal(numbering, s.traceTriangle, s.traceInstance, s.traceQuadric);
     numberGeometry(numbering, s.instances[1], s.triangle, s.vertex, s.quadric);
-    numberMaterials(numbering, s.materials[1], s.lobes[1], s.phong[1], s.texture);
+    numberMaterials(numbering, s.materials[1], s.lobes[1], s.lobeTextures[1], s.phong[1], s.texture);
     numberLights(numbering, s.emissive, s.lightNodes[1], s.punctual);
     numberWavefront(numbering, s.wavefrontPush);
     return numbering.bits();
@@ -201,6 +204,7 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.texels(shared::kBindInstances, s.instances);
     inputs.texels(shared::kBindMaterials, s.materials);
     inputs.texels(shared::kBindLobes, s.lobes);
+    inputs.texels(shared::kBindLobeTextures, s.lobeTextures);
     inputs.texels(shared::kBindPhong, s.phong);
     inputs.texels(shared::kBindLightNodes, s.lightNodes);
     const KernelLayout layout = inputs.bind(sizeof(shared::RenderPush));

@@ -127,6 +127,10 @@ Scene everything() {
                       makeTexture(dice, "Mörtel/rough \"ness\"", false, true, Wrap::clamp, Wrap::mirror),
                       makeTexture(dice, "colour", false, false, Wrap::clamp, Wrap::mirror),
                       makeTexture(dice, "glow", true, true, Wrap::mirror, Wrap::clamp)};
+    // In the order in which a material names them: roles of data and of colour.
+    for (const bool isColor : {false, false, false, true, true, false, true, true, false, false})
+        scene.textures.push_back(makeTexture(dice, "lobe " + std::to_string(scene.textures.size()), isColor, false,
+                                             Wrap::repeat, Wrap::clamp));
     for (const char* name : {"textured", "plain", "", "plain"}) scene.materials.push_back(makeMaterial(dice, name));
     scene.materials[3].phong = PhongMaterial{dice.vec(0, 1), dice.vec(0, 1), dice(1, 200), dice.vec(0, 1),
                                              dice.vec(0, 1), dice(0, 1),     dice(1, 10000)};
@@ -136,11 +140,13 @@ Scene everything() {
     textured.normalTexture = 2;
     textured.emissionTexture = 3;
     textured.normalScale = dice(0, 2);
+    textured.lobeTextures = {4, 5, 6, dice(0, 2), 7, 8, 9, 10, 11, 12, 13};
     textured.alphaMode = AlphaMode::mask;
     scene.materials[1].alphaMode = AlphaMode::blend;
     scene.materials[1].baseColorTexture = 3;
     scene.materials[2].doubleSided = true;
     scene.materials[2].thin = false;
+    scene.materials[2].thickness = dice(0.1f, 9);
     scene.materials[2].emission = {8.0f, 0.0f, 1.0f};
     scene.materials[2].anisotropy = 0.0f;  // an anisotropic one has the importer make the tangents that its mesh lacks
     scene.materials[2].anisotropyRotationRadians = 0.0f;

@@ -47,6 +47,8 @@ inline void expectSame(const Material& a, const Material& b) {
                                   m.anisotropy,         m.anisotropyRotationRadians, m.attenuationDistance};
     };
     expectSameBits(lobes(a), lobes(b), a.name + " specular colour, sheen colour, attenuation, coat, sheen, anisotropy...");
+    expectSameBits(a.lobeTextures, b.lobeTextures, a.name + " textures of lobes");
+    expectSameBits(a.thickness, b.thickness, a.name + " thickness");
     EXPECT_EQ(a.priority, b.priority) << a.name;
     EXPECT_EQ(a.baseColorTexture, b.baseColorTexture) << a.name;
     EXPECT_EQ(a.metallicRoughnessTexture, b.metallicRoughnessTexture) << a.name;
