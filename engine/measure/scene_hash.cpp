@@ -71,7 +71,7 @@ public:
     SceneHasher& operator<<(const Mesh& m) {
         return *this << m.material << m.positions << m.normals << m.uvs << m.tangents << m.triangles << m.quadrics;
     }
-    SceneHasher& operator<<(const Instance& i) { return *this << i.mesh << i.objectToWorld; }
+    SceneHasher& operator<<(const Instance& i) { return *this << i.mesh << i.objectToWorld << i.endToWorld; }
     SceneHasher& operator<<(const Camera& c) { return *this << c.position << c.target << c.up << c.fovYRadians; }
     SceneHasher& operator<<(const Light& l) {
         return *this << l.kind << l.position << l.direction << l.intensity << l.innerConeRadians << l.outerConeRadians

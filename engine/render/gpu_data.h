@@ -61,6 +61,9 @@ uint32_t encodeTangent(glm::vec4 tangent);
 
 GeometryData packGeometry(const Scene& scene);
 
+/// Where instances are when the shutter closes; empty where none moves.
+std::vector<shared::MotionData> packMotion(const Scene& scene);
+
 /// Throws Error where the textures together have more texels than 32 bits address.
 MaterialTables packMaterials(const Scene& scene);
 

@@ -63,7 +63,7 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"needs", &S::needs, "", "what the kernel contains: what the scene needs, or everything", 0, 0, {"scene", "full"}},
         {"camera", &S::camera, "", "number or name of a camera of the scene, or px,py,pz,tx,ty,tz,fov: position, target, vertical degrees"},
         {"camera-end", &S::cameraEnd, "", "the camera, as for --camera, at the end of its motion: motion blur; empty: it stands still"},
-        {"shutter", &S::shutter, "", "part of the camera's motion, from its start, while light is let in", 0, 1},
+        {"shutter", &S::shutter, "", "part of the motion of camera and instances, from its start, while light is let in", 0, 1},
         {"sampler", &S::sampler, "", "random numbers of a pixel; stratified wants all of --spp, blue-noise few samples", 0, 0, samplerNames()},
         {"filter", &S::filter, "", "how a pixel weighs the image around it", 0, 0, filterNames()},
         {"filter-radius", &S::filterRadius, "pixels", "of the filter; 0: its usual (box 0.5, tent 1, blackman-harris and gaussian 1.5)", 0, 16},

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/scene/bounds.h"
+#include "engine/scene/instance_motion.h"
 #include "engine/scene/texture_slots.h"
 
 namespace raylab {
@@ -91,16 +92,23 @@ Need instancingNeed(const TreePlan& plan) {
         reason = "a tree for each of " + count(plan.asked, "mesh", "meshes");
     else if (plan.hasUpperTree())
         reason = count(plan.sharedMeshes, "mesh is", "meshes are") + " shown more than once, " +
-                 count(plan.fineMeshes, "is", "are") + " finer than a grid over the world";
+                 count(plan.fineMeshes, "is", "are") + " finer than a grid over the world, " +
+                 count(plan.movingMeshes, "moves", "move");
     return {shared::kNeedInstancing, "instancing", plan.hasUpperTree(), reason};
 }
 
 Need transformNeed(const Scene& scene) {
     const auto n =
         static_cast<size_t>(std::count_if(scene.instances.begin(), scene.instances.end(),
-                                          [](const Instance& i) { return i.objectToWorld != glm::mat4(1.0f); }));
+                                          [](const Instance& i) { return i.objectToWorld != glm::mat4(1.0f) || moves(i); }));
     return {shared::kNeedTransforms, "transforms", n > 0,
             n > 0 ? count(n, "instance is", "instances are") + " moved" : "every matrix is the identity"};
+}
+
+Need motionNeed(const Scene& scene) {
+    const auto n = static_cast<size_t>(std::ranges::count_if(scene.instances, moves));
+    return {shared::kNeedMotion, "motion", n > 0,
+            n > 0 ? count(n, "instance moves", "instances move") + " while the shutter is open" : "every instance stands still"};
 }
 
 Need smoothNeed(const Scene& scene, const TreePlan& plan) {
@@ -142,6 +150,11 @@ TreePlan planTrees(const Scene& scene, const TreePlanConfig& config) {
     plan.ownTree.resize(scene.meshes.size(), false);
     for (const Instance& instance : scene.instances) ++plan.useCount[instance.mesh];
     const double finest = config.gridOverTree ? finestEdge(scene) : 0.0;
+    for (const Instance& instance : scene.instances) {
+        if (!moves(instance) || plan.ownTree[instance.mesh] || config.treePerMesh) continue;
+        plan.ownTree[instance.mesh] = true;
+        ++plan.movingMeshes;
+    }
     const bool flattens = triangleCount(scene).instanced <= config.flattenLimit;
     for (const Instance& instance : scene.instances) {
         const size_t mesh = instance.mesh;
@@ -201,6 +214,7 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
                      hasLobeTexture),
         materialNeed(shared::kNeedCoatNormals, "normals of coats", worn, "whose clear coat has a normal of its own",
                      hasCoatNormal),
+        motionNeed(scene),
     };
     for (const Need& need : result.needs)
         if (need.needed) result.mask |= need.bit;

@@ -133,7 +133,8 @@ struct Mesh {
 struct Instance {
     std::string name;
     uint32_t mesh = 0;
-    glm::mat4 objectToWorld{1.0f};
+    glm::mat4 objectToWorld{1.0f};                        ///< where the shutter opens
+    std::optional<glm::mat4> endToWorld = std::nullopt;   ///< the same where it closes; nothing: the instance stands still
 
     bool operator==(const Instance&) const = default;
 };

@@ -70,7 +70,8 @@ vec3 transformNormal(InstanceData data, vec3 n) {
 vec3 positionErrorBound(InstanceData data, vec3 largest) {
     if (!needs(kNeedTransforms)) return roundingBound(8) * largest;
     vec4 h = vec4(largest, 1.0);
-    return roundingBound(14) *
+    // A matrix between two is rounded, and so is its inverse.
+    return roundingBound(needs(kNeedMotion) ? 40 : 14) *
            vec3(dot(abs(data.objectToWorld0), h), dot(abs(data.objectToWorld1), h), dot(abs(data.objectToWorld2), h));
 }
 
@@ -164,14 +165,6 @@ Patch trianglePatch(Hit hit, InstanceData data) {
     return p;
 }
 
-// A world-space point in object space. By the cofactors, as transformNormal().
-vec3 toObject(InstanceData data, vec3 p) {
-    vec3 r0 = data.objectToWorld0.xyz, r1 = data.objectToWorld1.xyz, r2 = data.objectToWorld2.xyz;
-    vec3 q = p - vec3(data.objectToWorld0.w, data.objectToWorld1.w, data.objectToWorld2.w);
-    vec3 c0 = cross(r1, r2);
-    return (c0 * q.x + cross(r2, r0) * q.y + cross(r0, r1) * q.z) / dot(r0, c0);
-}
-
 // Newton steps that take a point near a quadric onto it, along the gradient: the distance along a ray is not known well
 // enough (Pharr, Jakob, Humphreys, section 6.8.5). The second one is for rays from far away.
 const int kQuadricSteps = 2;
@@ -183,7 +176,7 @@ Patch quadricPatch(Ray ray, Hit hit, InstanceData data) {
     vec3 radii = w0.xyz;
     float zz = w0.w, z = uintBitsToFloat(rest.x), constant = uintBitsToFloat(rest.y);
     vec3 local = ray.origin + hit.t * ray.direction;
-    if (needs(kNeedTransforms)) local = toObject(data, local);
+    if (needs(kNeedTransforms)) local = pointToObject(data, local);
     vec3 c = local / radii;
     vec3 gradient;
     for (int i = 0; i <= kQuadricSteps; ++i) {
@@ -331,7 +324,9 @@ Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
     if (needs(kNeedSpecular) && s.metallic > 0.5) s.normal = reflectingNormal(s.normal, s.geometricNormal, wo);
     bool emits = s.frontFace || (material.flags & kMaterialDoubleSided) != 0u;
     s.emission = emits ? s.emission : vec3(0.0);
-    s.emissionWeight = isQuadric ? 0.0 : material.emissionWeight;  // light sampling knows triangles alone
+    // Light sampling knows triangles alone, and none that move.
+    bool isSampled = !isQuadric && (!needs(kNeedMotion) || (data.flags & kInstanceMoves) == 0u);
+    s.emissionWeight = isSampled ? material.emissionWeight : 0.0;
     s.alpha = roughness * roughness;
     s.transmission = material.transmission;
     s.ior = material.ior;

@@ -35,6 +35,7 @@ RAYLAB_CONST uint kBindSampleRates = 25;     // texel buffer, float: samples of 
 RAYLAB_CONST uint kBindAlbedo = 26;          // texel buffer, uvec4: directional albedos (engine/render/directional_albedo.h)
 RAYLAB_CONST uint kBindLobes = 27;           // texel buffer, uvec4: four a material (LobeData)
 RAYLAB_CONST uint kBindLobeTextures = 28;    // texel buffer, uvec4: three a material (LobeTextureData)
+RAYLAB_CONST uint kBindMotion = 29;          // texel buffer, uvec4: three an instance (MotionData)
 RAYLAB_CONST uint kBindPaths = 30;           // storage buffer, uvec4: states of paths (shared/wavefront.h): only in the wavefront's kernels
 RAYLAB_CONST uint kBindQueues = 31;          // storage buffer, uint: their queues
 RAYLAB_CONST uint kBindingCount = 32;

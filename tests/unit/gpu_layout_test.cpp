@@ -49,6 +49,8 @@ struct Structs {
     shared::TraceInstance traceInstance;
     shared::TraceQuadric traceQuadric;
     std::array<shared::InstanceData, 2> instances{};  ///< the second is read, lest a stride of 0 go unseen
+    shared::MotionData motion;
+    std::array<shared::MotionData, 2> still{};  ///< which the instance's flags may have the kernel read
     shared::TriangleData triangle;
     shared::VertexData vertex;
     shared::QuadricData quadric;
@@ -93,9 +95,10 @@ void numberTraversal(Numbering& n, shared::TraceTriangle& t, shared::TraceInstan
     n.assign(q.isEllipsoid, q.padding0, q.padding1);
 }
 
-void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData& t, shared::VertexData& v,
+void numberGeometry(Numbering& n, shared::InstanceData& i, shared::MotionData& m, shared::TriangleData& t, shared::VertexData& v,
                     shared::QuadricData& q) {
     n.assign(i.objectToWorld0, i.objectToWorld1, i.objectToWorld2, i.firstPrimitive, i.material, i.flags, i.firstTrail);
+    n.assign(m.endToWorld0, m.endToWorld1, m.endToWorld2);
     n.assign(t.v0, t.v1, t.v2, t.padding);
     n.assign(v.position, v.normal, v.u, v.v, v.tangent, v.padding);
     n.assign(q.radii, q.zz, q.z, q.constant, q.height, q.isEllipsoid);
@@ -130,7 +133,7 @@ std::vector<uint32_t> numberAll(Structs& s) {
     numberFrame(numbering, s.frame);
     numberBuffers(numbering, s);
     numberTraversal(numbering, s.traceTriangle, s.traceInstance, s.traceQuadric);
-    numberGeometry(numbering, s.instances[1], s.triangle, s.vertex, s.quadric);
+    numberGeometry(numbering, s.instances[1], s.motion, s.triangle, s.vertex, s.quadric);
     numberMaterials(numbering, s.materials[1], s.lobes[1], s.lobeTextures[1], s.phong[1], s.texture);
     numberLights(numbering, s.emissive, s.lightNodes[1], s.punctual);
     numberWavefront(numbering, s.wavefrontPush);
@@ -200,8 +203,10 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.buffer(49, s.traceQuadric);
     inputs.buffer(50, s.quadric);
     inputs.buffer(51, s.wavefrontPush);
+    inputs.buffer(52, s.motion);
     inputs.buffer(48, result);
     inputs.texels(shared::kBindInstances, s.instances);
+    inputs.texels(shared::kBindMotion, s.still);
     inputs.texels(shared::kBindMaterials, s.materials);
     inputs.texels(shared::kBindLobes, s.lobes);
     inputs.texels(shared::kBindLobeTextures, s.lobeTextures);

@@ -158,6 +158,7 @@ Scene everything() {
     for (const uint32_t mesh : {3u, 0u, 1u, 0u, 3u, 2u})
         scene.instances.push_back({"shows " + std::to_string(mesh), mesh, dice.affine()});
     scene.instances[1].objectToWorld = glm::mat4(1.0f);
+    for (const size_t moving : {0, 1, 5}) scene.instances[moving].endToWorld = dice.affine();
     addSurroundings(dice, scene);
     return scene;
 }

@@ -76,6 +76,8 @@ inline void expectSame(const Instance& a, const Instance& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.mesh, b.mesh) << a.name;
     expectSameBits(a.objectToWorld, b.objectToWorld, a.name + " objectToWorld");
+    ASSERT_EQ(a.endToWorld.has_value(), b.endToWorld.has_value()) << a.name;
+    if (a.endToWorld) expectSameBits(*a.endToWorld, *b.endToWorld, a.name + " endToWorld");
 }
 
 inline void expectSame(const Camera& a, const Camera& b) {

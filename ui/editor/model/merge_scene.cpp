@@ -61,6 +61,7 @@ void merge(const Scene& other, const glm::mat4& placement, EditState& state) {
     for (Instance instance : other.instances) {
         instance.mesh += firstMesh;
         instance.objectToWorld = placement * instance.objectToWorld;
+        if (instance.endToWorld) instance.endToWorld = placement * *instance.endToWorld;
         state.selection.instances.push_back(insertInstance(state, std::move(instance)));
     }
     appendViewsAndLights(other, placement, scene);
