@@ -28,6 +28,7 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"seed", &S::seed, "", "of all random numbers; the same seed gives the same bits", 0, 4294967295.0},
         {"depth", &S::depth, "events", "scattering events of a path at most", 0, 1e6},
         {"roulette-depth", &S::rouletteDepth, "events", "Russian roulette may end a path after so many", 0, 1e6},
+        {"throughput-end", &S::throughputEnd, "", "path: share of the light under which Russian roulette may end a path at any bounce, in proportion and without bias; 0: off", 0, 1},
         {"integrator", &S::integrator, "", "method, or what to show of the first hit", 0, 0, integratorNames()},
         {"energy", &S::energy, "", "path: light scattered more than once between the microfacets of rough surfaces: lost (single) or given back (multiple)", 0, 0, {"single", "multiple"}},
         {"fresnel", &S::fresnel, "", "direct: Schlick's approximation, or the equations of dielectrics and metals", 0, 0, {"schlick", "exact"}},

@@ -81,7 +81,7 @@ void emitFrame() {
     emit(frame.lightGridOrigin);
     emit(frame.sunDiscCount);
     emit(frame.lightGridStep);
-    emit(frame.padding0);
+    emit(frame.inverseThroughputEnd);
     emit(frame.endPosition);
     emit(frame.padding1);
     emit(frame.endRight);

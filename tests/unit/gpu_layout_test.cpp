@@ -72,7 +72,7 @@ void numberFrame(Numbering& n, shared::FrameParams& f) {
     n.assign(f.emissiveTotal, f.environmentConstant, f.sceneDiagonal, f.gridOrigin, f.root, f.gridStep, f.hasUpperTree);
     n.assign(f.sampleCount, f.strataWidth, f.filterRadius, f.lensRadius, f.focusDistance, f.clampRadiance);
     n.assign(f.mirrorAlpha, f.aoDistance, f.aoRays, f.aoShare, f.shapedCount, f.shutter, f.lightGridOrigin, f.sunDiscCount);
-    n.assign(f.lightGridStep, f.padding0, f.endPosition, f.padding1, f.endRight, f.padding2, f.endUp, f.padding3);
+    n.assign(f.lightGridStep, f.inverseThroughputEnd, f.endPosition, f.padding1, f.endRight, f.padding2, f.endUp, f.padding3);
     n.assign(f.endForward, f.padding4, f.ambient, f.threshold);
 }
 

@@ -31,6 +31,7 @@ constexpr std::array kSettingKinds = {
     SettingKind{"seed", kEditKernel},
     SettingKind{"depth", kEditKernel},
     SettingKind{"roulette-depth", kEditKernel},
+    SettingKind{"throughput-end", kEditKernel},
     SettingKind{"shutter", kEditKernel},
     SettingKind{"energy", kEditKernel},
     SettingKind{"offset", kEditKernel},
