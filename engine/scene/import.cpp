@@ -67,10 +67,7 @@ void reportSingular(const std::vector<std::string>& names, std::vector<std::stri
 void supplyTangents(Scene& scene) {
     tbb::parallel_for(size_t{0}, scene.meshes.size(), [&scene](size_t m) {
         Mesh& mesh = scene.meshes[m];
-        const Material& material = scene.materials[mesh.material];
-        if (material.normalTexture != kNoTexture || material.lobeTextures.clearcoatNormal != kNoTexture ||
-            material.anisotropy > 0.0f)
-            ensureTangents(mesh);
+        if (wantsTangents(scene.materials[mesh.material])) ensureTangents(mesh);
     });
 }
 
