@@ -56,5 +56,8 @@ vec4 left(uint i) {
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
-    result[i] = push.mode == kBsdfSample ? sampled(i) : push.mode == kBsdfGrid ? onGrid(i) : push.mode == kBsdfAlbedo ? left(i) : bothWays(i);
+    if (push.mode == kBsdfSample) result[i] = sampled(i);
+    if (push.mode == kBsdfGrid) result[i] = onGrid(i);
+    if (push.mode == kBsdfBothWays) result[i] = bothWays(i);
+    if (push.mode == kBsdfAlbedo) result[i] = left(i);
 }
