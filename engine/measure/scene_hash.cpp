@@ -55,19 +55,23 @@ public:
     SceneHasher& operator<<(const PhongMaterial& p) {
         return *this << p.diffuse << p.specular << p.exponent << p.mirror << p.tint << p.reflection << p.ior;
     }
+    SceneHasher& operator<<(const LobeTextures& t) {
+        return *this << t.clearcoat << t.clearcoatRoughness << t.clearcoatNormal << t.clearcoatNormalScale << t.sheenColor
+                     << t.sheenRoughness << t.anisotropy << t.specular << t.specularColor << t.transmission;
+    }
     SceneHasher& operator<<(const Material& m) {
         return *this << m.baseColor << m.alpha << m.baseColorTexture << m.metallic << m.roughness
                      << m.metallicRoughnessTexture << m.normalTexture << m.normalScale << m.emission
                      << m.emissionTexture << m.alphaMode << m.alphaCutoff << m.transmission << m.ior << m.thin
                      << m.specular << m.doubleSided << m.specularColor << m.clearcoat << m.clearcoatRoughness
                      << m.sheenColor << m.sheenRoughness << m.anisotropy << m.anisotropyRotationRadians
-                     << m.attenuationColor << m.attenuationDistance << m.priority << m.phong;
+                     << m.attenuationColor << m.attenuationDistance << m.lobeTextures << m.priority << m.phong;
     }
     SceneHasher& operator<<(const Quadric& q) { return *this << q.kind << q.radii << q.clipLow << q.clipHigh; }
     SceneHasher& operator<<(const Mesh& m) {
         return *this << m.material << m.positions << m.normals << m.uvs << m.tangents << m.triangles << m.quadrics;
     }
-    SceneHasher& operator<<(const Instance& i) { return *this << i.mesh << i.objectToWorld; }
+    SceneHasher& operator<<(const Instance& i) { return *this << i.mesh << i.objectToWorld << i.endToWorld; }
     SceneHasher& operator<<(const Camera& c) { return *this << c.position << c.target << c.up << c.fovYRadians; }
     SceneHasher& operator<<(const Light& l) {
         return *this << l.kind << l.position << l.direction << l.intensity << l.innerConeRadians << l.outerConeRadians

@@ -9,6 +9,7 @@
 #include "engine/render/camera.h"
 #include "engine/render/lighting.h"
 #include "engine/render/renderer.h"
+#include "engine/scene/texture_slots.h"
 
 namespace raylab {
 namespace {
@@ -159,11 +160,10 @@ std::vector<FineTexture> texturesBelowPixels(const Scene& scene, const RenderSet
     for (const Instance& instance : scene.instances) visitInstance(scene, instance, view, uvPerPixel);
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
-        for (const int32_t texture :
-             {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture})
-            if (texture != kNoTexture)
-                ofTexture[static_cast<size_t>(texture)] =
-                    std::min(ofTexture[static_cast<size_t>(texture)], uvPerPixel[i]);
+        for (const int32_t* const texture : textureSlots(m))
+            if (*texture != kNoTexture)
+                ofTexture[static_cast<size_t>(*texture)] =
+                    std::min(ofTexture[static_cast<size_t>(*texture)], uvPerPixel[i]);
     }
     std::vector<FineTexture> fine;
     for (size_t i = 0; i < scene.textures.size(); ++i) {

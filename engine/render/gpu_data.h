@@ -61,6 +61,9 @@ uint32_t encodeTangent(glm::vec4 tangent);
 
 GeometryData packGeometry(const Scene& scene);
 
+/// Where instances are when the shutter closes; empty where none moves.
+std::vector<shared::MotionData> packMotion(const Scene& scene);
+
 /// Throws Error where the textures together have more texels than 32 bits address.
 MaterialTables packMaterials(const Scene& scene);
 
@@ -69,6 +72,10 @@ std::vector<shared::PhongData> packPhong(const Scene& scene);
 
 /// The lobes of materials that few have, one entry a material.
 std::vector<shared::LobeData> packLobes(const Scene& scene);
+std::vector<shared::LobeTextureData> packLobeTextures(const Scene& scene);
+
+/// A material's index of a texture as the kernels have it.
+uint32_t textureIndex(int32_t texture);
 
 /// How next event estimation chooses: by a tree over lights; in proportion to the power that lights send out; or uniformly:
 /// kinds of light, punctual lights and the area of lamps evenly. A tree wants two lights at least, else the choice is by power.

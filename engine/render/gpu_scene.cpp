@@ -19,6 +19,7 @@ struct TexelBinding {
 constexpr TexelBinding kWords(uint32_t binding, const char* name) { return {binding, name, VK_FORMAT_R32G32B32A32_UINT, 16}; }
 
 constexpr TexelBinding kInstances = kWords(shared::kBindInstances, "instances");
+constexpr TexelBinding kMotion = kWords(shared::kBindMotion, "motion of instances");
 constexpr TexelBinding kTriangles = kWords(shared::kBindTriangles, "triangles");
 constexpr TexelBinding kVertices = kWords(shared::kBindVertices, "vertices");
 constexpr TexelBinding kQuadrics = kWords(shared::kBindQuadrics, "quadrics");
@@ -26,6 +27,7 @@ constexpr TexelBinding kMaterials = kWords(shared::kBindMaterials, "materials");
 constexpr TexelBinding kPhong = kWords(shared::kBindPhong, "Phong materials");
 constexpr TexelBinding kAlbedo = kWords(shared::kBindAlbedo, "directional albedos");
 constexpr TexelBinding kLobes = kWords(shared::kBindLobes, "lobes of materials");
+constexpr TexelBinding kLobeTextures = kWords(shared::kBindLobeTextures, "textures of lobes");
 constexpr TexelBinding kTextures = kWords(shared::kBindTextures, "textures");
 constexpr TexelBinding kTexels = {shared::kBindTexels, "texels", VK_FORMAT_R32_UINT, 4};
 constexpr TexelBinding kEmissive = kWords(shared::kBindEmissive, "emissive triangles");
@@ -69,6 +71,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightC
         GeometryData geometry = packGeometry(scene);
         for (size_t i = 0; i < lights_.firstTrail.size(); ++i) geometry.instances[i].firstTrail = lights_.firstTrail[i];
         add(kInstances, geometry.instances);
+        add(kMotion, packMotion(scene));
         add(kTriangles, geometry.triangles);
         add(kVertices, geometry.vertices);
         add(kQuadrics, geometry.quadrics);
@@ -77,6 +80,7 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightC
     add(kPhong, packPhong(scene));
     add(kAlbedo, albedoTables(scene));
     add(kLobes, packLobes(scene));
+    add(kLobeTextures, packLobeTextures(scene));
     add(kTextures, materials.textures);
     add(kTexels, materials.texels);
     add(kEmissive, lights_.emissive);
@@ -99,8 +103,8 @@ GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightC
 std::vector<BindingInfo> GpuScene::bindings() {
     std::vector<BindingInfo> infos;
     for (const TexelBinding& b :
-         {kInstances, kTriangles, kVertices, kQuadrics, kMaterials, kPhong, kAlbedo, kLobes, kTextures, kTexels, kEmissive,
-          kPunctual, kLightNodes, kLightTrails, kEnvironment, kAlias})
+         {kInstances, kMotion,   kTriangles, kVertices, kQuadrics, kMaterials,   kPhong,       kAlbedo,     kLobes,
+          kLobeTextures, kTextures, kTexels, kEmissive, kPunctual, kLightNodes, kLightTrails, kEnvironment, kAlias})
         infos.push_back({b.binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER});
     return infos;
 }

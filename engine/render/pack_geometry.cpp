@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/render/gpu_data.h"
+#include "engine/scene/instance_motion.h"
 #include "engine/scene/quadric.h"
 
 namespace raylab {
@@ -81,10 +82,21 @@ shared::InstanceData packInstance(const Scene& scene, const Instance& instance, 
     data.material = mesh.material;
     if (!mesh.normals.empty()) data.flags |= shared::kInstanceSmooth;
     if (glm::determinant(glm::dmat3(instance.objectToWorld)) < 0.0) data.flags |= shared::kInstanceMirrored;
+    if (moves(instance)) data.flags |= shared::kInstanceMoves;
     return data;
 }
 
 }  // namespace
+
+std::vector<shared::MotionData> packMotion(const Scene& scene) {
+    std::vector<shared::MotionData> packed;
+    if (std::ranges::none_of(scene.instances, moves)) return packed;
+    for (const Instance& instance : scene.instances) {
+        const glm::mat4 rows = glm::transpose(instance.endToWorld.value_or(instance.objectToWorld));
+        packed.push_back({rows[0], rows[1], rows[2]});
+    }
+    return packed;
+}
 
 uint32_t encodeNormal(glm::vec3 unit) {
     const glm::vec2 e = octahedral(unit);

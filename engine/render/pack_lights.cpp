@@ -4,6 +4,7 @@
 
 #include "engine/image/srgb.h"
 #include "engine/render/gpu_data.h"
+#include "engine/scene/instance_motion.h"
 #include "engine/scene/needs.h"
 
 namespace raylab {
@@ -83,7 +84,8 @@ double packEmissive(const Scene& scene, const MaterialTables& tables, std::span<
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const uint32_t material = scene.meshes[scene.instances[i].mesh].material;
         const float weight = tables.materials[material].emissionWeight;
-        if (weight > 0.0f) appendEmissive(scene, i, weight, emitted[material], lights, sum);
+        // What moves has no one place: it gives light to the rays that come upon it (lib/surface.glsl).
+        if (weight > 0.0f && !moves(scene.instances[i])) appendEmissive(scene, i, weight, emitted[material], lights, sum);
     }
     const std::vector<AliasEntry> alias = buildAliasTable(sum.weights);
     for (size_t i = 0; i < alias.size(); ++i) {

@@ -30,7 +30,28 @@ shared::LobeData packMaterial(const Material& m) {
     return data;
 }
 
+shared::LobeTextureData packTextures(const LobeTextures& t) {
+    shared::LobeTextureData data{};
+    data.clearcoat = textureIndex(t.clearcoat);
+    data.clearcoatRoughness = textureIndex(t.clearcoatRoughness);
+    data.clearcoatNormal = textureIndex(t.clearcoatNormal);
+    data.clearcoatNormalScale = t.clearcoatNormalScale;
+    data.sheenColor = textureIndex(t.sheenColor);
+    data.sheenRoughness = textureIndex(t.sheenRoughness);
+    data.anisotropy = textureIndex(t.anisotropy);
+    data.specular = textureIndex(t.specular);
+    data.specularColor = textureIndex(t.specularColor);
+    data.transmission = textureIndex(t.transmission);
+    return data;
+}
+
 }  // namespace
+
+std::vector<shared::LobeTextureData> packLobeTextures(const Scene& scene) {
+    std::vector<shared::LobeTextureData> packed;
+    for (const Material& material : scene.materials) packed.push_back(packTextures(material.lobeTextures));
+    return packed;
+}
 
 std::vector<shared::LobeData> packLobes(const Scene& scene) {
     std::vector<shared::LobeData> packed;

@@ -93,8 +93,6 @@ void packTextures(const Scene& scene, MaterialTables& tables) {
     });
 }
 
-uint32_t textureIndex(int32_t texture) { return texture == kNoTexture ? shared::kNoTextureIndex : static_cast<uint32_t>(texture); }
-
 shared::MaterialData packMaterial(const Material& m) {
     shared::MaterialData data{};
     data.baseColor = m.baseColor;
@@ -116,6 +114,10 @@ shared::MaterialData packMaterial(const Material& m) {
 }
 
 }  // namespace
+
+uint32_t textureIndex(int32_t texture) {
+    return texture == kNoTexture ? shared::kNoTextureIndex : static_cast<uint32_t>(texture);
+}
 
 MaterialTables packMaterials(const Scene& scene) {
     MaterialTables tables;

@@ -1,5 +1,7 @@
 #include "engine/render/prepared_scene.h"
 
+#include <algorithm>
+
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
@@ -149,6 +151,8 @@ shared::FrameParams makeFrame(const PreparedScene& prepared, const RenderSetting
     frame.seed = static_cast<uint32_t>(settings.seed);
     frame.maxDepth = static_cast<uint32_t>(settings.depth);
     frame.rouletteDepth = static_cast<uint32_t>(settings.rouletteDepth);
+    // Finite, so that 0 switches it off: what is left, times this, is 1 and more.
+    frame.inverseThroughputEnd = 1.0f / std::max(static_cast<float>(settings.throughputEnd), 1e-30f);
     frame.mirrorAlpha = static_cast<float>(settings.mirrorRoughness * settings.mirrorRoughness);
     frame.aoDistance = settings.aoDistance > 0.0 ? static_cast<float>(settings.aoDistance) : kEndlessRay;
     frame.aoRays = static_cast<uint32_t>(settings.aoRays);

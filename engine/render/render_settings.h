@@ -22,6 +22,7 @@ struct RenderSettings {
     int64_t seed = 0;
     int64_t depth = 8;
     int64_t rouletteDepth = 3;
+    double throughputEnd = 0.0;
     std::string integrator = "path";
     std::string energy = "single";
     std::string fresnel = "schlick";

@@ -14,6 +14,7 @@
 #include "engine/core/error.h"
 #include "engine/render/primitive_soup.h"
 #include "engine/render/triangle_record.h"
+#include "engine/scene/instance_motion.h"
 #include "engine/scene/needs.h"
 #include "engine/scene/quadric.h"
 
@@ -194,7 +195,10 @@ uint32_t buildUpper(const Scene& scene, const std::vector<int64_t>& treeOfMesh, 
     bounds.resize(records.size());
     const size_t first = records.size() - shown.size();
     tbb::parallel_for(size_t{0}, shown.size(), [&](size_t i) {
-        bounds[first + i] = worldBounds(scene.meshes[shown[i]->mesh], shown[i]->objectToWorld);
+        const Mesh& mesh = scene.meshes[shown[i]->mesh];
+        bounds[first + i] = worldBounds(mesh, shown[i]->objectToWorld);
+        // Points move in straight lines, so that both ends' boxes bound them.
+        if (moves(*shown[i])) bounds[first + i].grow(worldBounds(mesh, *shown[i]->endToWorld));
     });
     BvhConfig config = choice.config.bvh;
     config.maxLeafSize = 1;

@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/core/stopwatch.h"
 #include "engine/render/kernel_file.h"
+#include "engine/scene/instance_motion.h"
 #include "shaders/shared/bindings.h"
 
 namespace raylab {
@@ -44,6 +45,9 @@ TraceConfig HardwareTracer::adapt(TraceConfig config) const {
 
 void HardwareTracer::build(Device& device, const Scene& scene, const TraceConfig& config,
                             const BuildControl& control) {
+    if (std::ranges::any_of(scene.instances, moves))
+        throw Error("instances of " + scene.name +
+                    " move while the shutter is open, and the driver's structures stand still");
     Stopwatch watch;
     data_ = buildTraceData(scene, config, control);
     sortSlots();

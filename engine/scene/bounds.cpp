@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/scene/instance_motion.h"
 #include "engine/scene/quadric.h"
 
 namespace raylab {
@@ -17,18 +18,24 @@ constexpr float kDefaultFovY = 0.7853982f;  // 45 degrees
 
 Bounds merged(const Bounds& a, const Bounds& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
 
-Bounds instanceBounds(const Scene& scene, const Instance& instance) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
+Bounds meshBounds(const Mesh& mesh, const glm::mat4& toWorld) {
     Bounds bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
     for (const glm::vec3& position : mesh.positions) {
-        const glm::vec3 world(instance.objectToWorld * glm::vec4(position, 1.0f));
+        const glm::vec3 world(toWorld * glm::vec4(position, 1.0f));
         bounds = merged(bounds, {world, world});
     }
     for (const Quadric& quadric : mesh.quadrics) {
-        const Bounds box = quadricBounds(quadric, instance.objectToWorld);
+        const Bounds box = quadricBounds(quadric, toWorld);
         if (box.lo.x <= box.hi.x) bounds = merged(bounds, box);
     }
     return bounds;
+}
+
+/// Over all of its motion: points move in straight lines between its ends.
+Bounds instanceBounds(const Scene& scene, const Instance& instance) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const Bounds bounds = meshBounds(mesh, instance.objectToWorld);
+    return moves(instance) ? merged(bounds, meshBounds(mesh, *instance.endToWorld)) : bounds;
 }
 
 }  // namespace

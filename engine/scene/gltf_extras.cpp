@@ -11,13 +11,6 @@
 namespace raylab {
 namespace {
 
-std::optional<JsonView> findExtras(const JsonView& root) {
-    const JsonView scenes = root.array("scenes");
-    if (scenes.size() > 0)
-        if (auto found = raylabExtras(scenes.element(root.index("scene", scenes.size()).value_or(0)))) return found;
-    return raylabExtras(root);
-}
-
 SkyDescription readSky(const JsonView& sun) {
     SkyDescription sky;
     sky.sunElevationRadians = static_cast<float>(glm::radians(numberBetween(sun, "elevation", -90.0, 90.0, 45.0)));
@@ -68,8 +61,15 @@ std::optional<JsonView> raylabExtras(const JsonView& owner) {
     return extras.object("raylab");
 }
 
+std::optional<JsonView> sceneExtras(const JsonView& root) {
+    const JsonView scenes = root.array("scenes");
+    if (scenes.size() > 0)
+        if (auto found = raylabExtras(scenes.element(root.index("scene", scenes.size()).value_or(0)))) return found;
+    return raylabExtras(root);
+}
+
 void readGltfExtras(const GltfDocument& document, Scene& scene) {
-    const std::optional<JsonView> extras = findExtras(document.root());
+    const std::optional<JsonView> extras = sceneExtras(document.root());
     if (!extras) return;
     if (extras->has("environment")) readEnvironment(document, *extras, scene);
     if (extras->has("sun")) scene.sky = readSky(extras->object("sun"));

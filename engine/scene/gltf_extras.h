@@ -10,6 +10,9 @@ namespace raylab {
 /// `extras.raylab` of a part of the file. Other programs may store anything under `extras`: only an object counts.
 std::optional<JsonView> raylabExtras(const JsonView& owner);
 
+/// The same of the shown scene, or else of the whole file.
+std::optional<JsonView> sceneExtras(const JsonView& root);
+
 /// The number under `key`, or the fallback. Throws Error where it is out of range.
 double numberBetween(const JsonView& owner, const char* key, double low, double high, double fallback);
 

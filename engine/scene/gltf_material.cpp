@@ -144,10 +144,8 @@ void readAlphaMode(Material& material, const JsonView& json) {
 
 void readTransmission(Draft& draft, const JsonView& extensions) {
     Material& material = draft.material;
-    std::map<std::string, size_t>& unread = draft.context.unread;
     const JsonView transmission = extensions.object("KHR_materials_transmission");
     material.transmission = unit(transmission.number("transmissionFactor", 0.0));
-    unread["transmission textures"] += transmission.has("transmissionTexture");
     material.ior = static_cast<float>(extensions.object("KHR_materials_ior").number("ior", 1.5));
     if (material.ior < 1.0f) {
         draft.context.warnings.push_back("material \"" + material.name + "\" has an ior below 1, taken as 1");
@@ -231,7 +229,9 @@ Draft readMaterial(Context& context, const JsonView& json, size_t index) {
     readAlphaMode(material, json);
     readTransmission(draft, extensions);
     readSpecular(draft, extensions);
-    readGltfLobes(json, material, context.unread);
+    readGltfLobes(json, material, [&draft](const JsonView& extension, const char* key, TextureRole role) {
+        return textureOf(draft, extension, key, role);
+    });
     material.phong = readPhong(json);
     noteUnreadExtensions(draft, extensions);
     if (extensions.has("KHR_materials_unlit")) makeUnlit(material);

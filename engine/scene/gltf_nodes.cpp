@@ -1,10 +1,11 @@
 #include "engine/scene/gltf_nodes.h"
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 
+#include "engine/scene/gltf_animation.h"
 #include "engine/scene/gltf_extras.h"
 #include "engine/scene/import_parts.h"
 #include "engine/scene/mesh_shading.h"
@@ -15,31 +16,53 @@ namespace {
 /// How often shared children may be placed beyond once a node. A tree, the only thing that glTF allows, needs none.
 constexpr size_t kMostExtraPlacements = 1'000'000;
 
-glm::dmat4 localTransform(const JsonView& node) {
-    if (node.has("matrix")) {
-        glm::dmat4 matrix = glm::make_mat4(node.numbers("matrix", std::vector<double>(16)).data());
-        for (int c = 0; c < 4; ++c) matrix[c][3] = c == 3 ? 1.0 : 0.0;  // glTF allows affine maps only
-        return matrix;
-    }
+glm::dmat4 matrixUnder(const JsonView& owner, const char* key) {
+    glm::dmat4 matrix = glm::make_mat4(owner.numbers(key, std::vector<double>(16)).data());
+    for (int c = 0; c < 4; ++c) matrix[c][3] = c == 3 ? 1.0 : 0.0;  // glTF allows affine maps only
+    return matrix;
+}
+
+NodePose poseOf(const JsonView& node) {
     const std::vector<double> t = node.numbers("translation", {0.0, 0.0, 0.0});
     const std::vector<double> r = node.numbers("rotation", {0.0, 0.0, 0.0, 1.0});
     const std::vector<double> s = node.numbers("scale", {1.0, 1.0, 1.0});
     glm::dquat rotation(r[3], r[0], r[1], r[2]);
     rotation = glm::length(rotation) > 0.0 ? glm::normalize(rotation) : glm::dquat(1.0, 0.0, 0.0, 0.0);
-    return glm::translate(glm::dmat4(1.0), glm::dvec3(t[0], t[1], t[2])) * glm::mat4_cast(rotation) *
-           glm::scale(glm::dmat4(1.0), glm::dvec3(s[0], s[1], s[2]));
+    return {{t[0], t[1], t[2]}, rotation, {s[0], s[1], s[2]}};
 }
 
 struct Node {
     glm::dmat4 local{1.0};
+    glm::dmat4 localEnd{1.0};  ///< where the shutter closes
     std::vector<size_t> children;
 };
 
+/// The file's own transform, where the shutter closes that of `extras.raylab.endMatrix`.
 Node readNode(const JsonView& json, size_t nodeCount) {
-    Node node{.local = localTransform(json), .children = {}};
+    Node node;
+    node.local = json.has("matrix") ? matrixUnder(json, "matrix") : poseOf(json).matrix();
+    const std::optional<JsonView> extras = raylabExtras(json);
+    node.localEnd = extras && extras->has("endMatrix") ? matrixUnder(*extras, "endMatrix") : node.local;
     const JsonView children = json.array("children");
     for (size_t c = 0; c < children.size(); ++c) node.children.push_back(children.indexAt(c, nodeCount));
     return node;
+}
+
+/// The nodes that the file's animation moves, at both ends of the shutter.
+void animate(const GltfDocument& document, const JsonView& json, std::vector<Node>& nodes) {
+    const std::optional<Shutter> shutter = readShutter(document);
+    if (!shutter) return;
+    std::map<size_t, std::pair<NodePose, NodePose>> poses;
+    for (const AnimationChannel& channel : readAnimation(document)) {
+        const NodePose pose = poseOf(json.element(channel.node));
+        auto& [open, close] = poses.try_emplace(channel.node, pose, pose).first->second;
+        applyChannel(channel, shutter->open, open);
+        applyChannel(channel, shutter->close, close);
+    }
+    for (const auto& [node, ends] : poses) {
+        nodes[node].local = ends.first.matrix();
+        nodes[node].localEnd = ends.second.matrix();
+    }
 }
 
 std::vector<size_t> rootNodes(const JsonView& root) {
@@ -173,7 +196,8 @@ std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
     std::vector<PlacedNode> placed;
     std::vector<PlacedNode> stack;
     const std::vector<size_t> roots = rootNodes(root);
-    for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, nodes[*it].local});
+    animate(document, json, nodes);
+    for (auto it = roots.rbegin(); it != roots.rend(); ++it) stack.push_back({*it, nodes[*it].local, nodes[*it].localEnd});
     while (!stack.empty()) {
         const PlacedNode current = stack.back();
         stack.pop_back();
@@ -181,7 +205,7 @@ std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
         if (placed.size() > nodes.size() + kMostExtraPlacements) json.fail("share children more than a million times");
         const std::vector<size_t>& children = nodes[current.node].children;
         for (auto it = children.rbegin(); it != children.rend(); ++it)
-            stack.push_back({*it, current.toWorld * nodes[*it].local});
+            stack.push_back({*it, current.toWorld * nodes[*it].local, current.endToWorld * nodes[*it].localEnd});
     }
     return placed;
 }

@@ -12,10 +12,13 @@ namespace raylab {
 struct PlacedNode {
     size_t node = 0;
     glm::dmat4 toWorld{1.0};
+    glm::dmat4 endToWorld{1.0};  ///< where the shutter closes
 };
 
 /// The nodes of the default scene, parents before children; without any scene, all that have no parent and what is
-/// below them. The document must be valid (no cycles). Throws Error where shared children would be placed more than a
+/// below them. Where the file says when the shutter opens and closes (readShutter), its first animation moves them; and
+/// `extras.raylab.endMatrix` of a node is its transform where the shutter closes. Cameras and lights are those of the moment
+/// when it opens. The document must be valid (no cycles). Throws Error where shared children would be placed more than a
 /// million times.
 std::vector<PlacedNode> placeNodes(const GltfDocument& document);
 

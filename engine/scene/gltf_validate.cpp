@@ -10,7 +10,7 @@
 namespace raylab {
 namespace {
 
-constexpr std::array<std::string_view, 11> kReadableExtensions = {"KHR_lights_punctual",
+constexpr std::array<std::string_view, 13> kReadableExtensions = {"KHR_lights_punctual",
                                                                   "KHR_materials_emissive_strength",
                                                                   "KHR_materials_ior",
                                                                   "KHR_materials_specular",
@@ -19,7 +19,9 @@ constexpr std::array<std::string_view, 11> kReadableExtensions = {"KHR_lights_pu
                                                                   "KHR_materials_volume",
                                                                   "KHR_mesh_quantization",
                                                                   "KHR_texture_transform",
+                                                                  "KHR_materials_anisotropy",
                                                                   "KHR_materials_clearcoat",
+                                                                  "KHR_materials_sheen",
                                                                   "KHR_materials_pbrSpecularGlossiness"};
 
 void requireReadableExtensions(const JsonView& root) {

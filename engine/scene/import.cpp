@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/scene/bounds.h"
+#include "engine/scene/instance_motion.h"
 #include "engine/scene/import_parts.h"
 
 namespace raylab {
@@ -66,8 +67,7 @@ void reportSingular(const std::vector<std::string>& names, std::vector<std::stri
 void supplyTangents(Scene& scene) {
     tbb::parallel_for(size_t{0}, scene.meshes.size(), [&scene](size_t m) {
         Mesh& mesh = scene.meshes[m];
-        const Material& material = scene.materials[mesh.material];
-        if (material.normalTexture != kNoTexture || material.anisotropy > 0.0f) ensureTangents(mesh);
+        if (wantsTangents(scene.materials[mesh.material])) ensureTangents(mesh);
     });
 }
 
@@ -108,12 +108,21 @@ bool isInvertible(const glm::dmat4& matrix) {
     return std::abs(glm::determinant(glm::dmat3(matrix))) > 1e-7 * lengths;
 }
 
-void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld) {
-    const glm::mat4 stored(toWorld);
-    if (isBounded(stored) && isInvertible(stored))
-        draft.scene.instances.push_back({name, static_cast<uint32_t>(mesh), stored});
-    else
+void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld,
+                   const glm::dmat4& endToWorld) {
+    const glm::mat4 stored(toWorld), end(endToWorld);
+    if (!isBounded(stored) || !isInvertible(stored)) {
         draft.singular.push_back(name);
+        return;
+    }
+    Instance instance{name, static_cast<uint32_t>(mesh), stored};
+    if (stored != end && isBounded(end) && isInvertibleBetween(stored, end))
+        instance.endToWorld = end;
+    else if (stored != end)
+        draft.scene.warnings.push_back("instance \"" + name +
+                                       "\" stands still: the matrices between the ends of its motion flatten it (a turn by "
+                                       "half does); let the shutter close sooner");
+    draft.scene.instances.push_back(std::move(instance));
 }
 
 Scene finishScene(SceneDraft&& draft, const fs::path& path) {

@@ -45,7 +45,8 @@ void placeAiNodes(const aiScene& source, SceneDraft& draft) {
         stack.pop_back();
         for (unsigned i = 0; i < frame.node->mNumMeshes; ++i)
             if (frame.node->mMeshes[i] < draft.scene.meshes.size())
-                placeInstance(draft, frame.node->mName.C_Str(), frame.node->mMeshes[i], frame.toWorld);
+                placeInstance(draft, frame.node->mName.C_Str(), frame.node->mMeshes[i], frame.toWorld,
+                              frame.toWorld);
         for (unsigned c = frame.node->mNumChildren; c-- > 0;)
             stack.push_back(
                 {frame.node->mChildren[c], frame.toWorld * toMatrix(frame.node->mChildren[c]->mTransformation)});

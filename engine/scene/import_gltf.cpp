@@ -96,8 +96,9 @@ void placeInstances(const GltfDocument& document, const std::vector<PlacedNode>&
         if (!mesh && !quadrics) continue;
         const std::string name = node.text("name", "node " + std::to_string(placed.node));
         if (mesh)
-            for (const size_t part : partsOf[*mesh]) placeInstance(draft, name, part, placed.toWorld);
-        if (quadrics) placeInstance(draft, name, plain.parts.size() + *quadrics, placed.toWorld);
+            for (const size_t part : partsOf[*mesh]) placeInstance(draft, name, part, placed.toWorld, placed.endToWorld);
+        if (quadrics)
+            placeInstance(draft, name, plain.parts.size() + *quadrics, placed.toWorld, placed.endToWorld);
     }
 }
 

@@ -223,6 +223,11 @@ void compactVertices(Mesh& mesh) {
     keepVertices(mesh, kept);
 }
 
+bool wantsTangents(const Material& material) {
+    return material.normalTexture != kNoTexture || material.lobeTextures.clearcoatNormal != kNoTexture ||
+           material.anisotropy > 0.0f;
+}
+
 void ensureTangents(Mesh& mesh) {
     if (mesh.uvs.empty() || !mesh.tangents.empty()) return;
     const std::vector<glm::vec3> geometric =

@@ -52,6 +52,9 @@ void weldVertices(Mesh& mesh);
 /// Removes vertices that no triangle uses.
 void compactVertices(Mesh& mesh);
 
+/// Whether tangents change what the material looks like.
+bool wantsTangents(const Material& material);
+
 /// Supplies tangents (see vertexTangents) to a mesh with texture coordinates that has none.
 void ensureTangents(Mesh& mesh);
 

@@ -29,8 +29,10 @@ bool isBounded(const glm::dmat4& transform);
 /// not. A float matrix cannot tell less than 1e-7 from 0.
 bool isInvertible(const glm::dmat4& matrix);
 
-/// Adds an instance unless its transform is singular or not finite; finishScene then names it in a warning.
-void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld);
+/// Adds an instance unless its transform is singular or not finite; finishScene then names it in a warning. Where a matrix
+/// between the two is singular, the instance stands still, with a warning.
+void placeInstance(SceneDraft& draft, const std::string& name, size_t mesh, const glm::dmat4& toWorld,
+                   const glm::dmat4& endToWorld);
 
 /// Drops meshes without primitives or instances and materials without meshes, computes tangents where a normal map asks
 /// for them, decodes the textures and writes the report on repairs. What the images point to must still be alive.

@@ -3,13 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/image/image8.h"
 #include "engine/scene/data_uri.h"
+#include "engine/scene/texture_slots.h"
 
 namespace raylab {
 namespace {
@@ -36,11 +36,6 @@ DecodedImage decode(const ImageSource& source) {
         decoded.whyNot = "not enough memory to decode it";
     }
     return decoded;
-}
-
-std::array<int32_t*, 4> textureSlots(Material& material) {
-    return {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-            &material.emissionTexture};
 }
 
 /// Requests that some material still refers to (the material may have dropped its texture, the scene the material), in
@@ -162,6 +157,7 @@ void resolveTextures(const TextureRequests& requests, Scene& scene) {
         for (int32_t* slot : textureSlots(material))
             if (*slot != kNoTexture) *slot = textureOf[static_cast<size_t>(*slot)];
         if (material.normalTexture == kNoTexture) material.normalScale = 1.0f;
+        if (material.lobeTextures.clearcoatNormal == kNoTexture) material.lobeTextures.clearcoatNormalScale = 1.0f;
     }
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "engine/scene/bounds.h"
+#include "engine/scene/instance_motion.h"
+#include "engine/scene/texture_slots.h"
 
 namespace raylab {
 namespace {
@@ -53,8 +55,25 @@ Need materialNeed(uint32_t bit, const char* name, const std::vector<const Materi
 bool isAlphaTested(const Material& m) { return m.alphaMode != AlphaMode::opaque; }
 
 bool hasTexture(const Material& m) {
-    return m.baseColorTexture != kNoTexture || m.metallicRoughnessTexture != kNoTexture ||
-           m.normalTexture != kNoTexture || m.emissionTexture != kNoTexture;
+    return std::ranges::any_of(textureSlots(m), [](const int32_t* texture) { return *texture != kNoTexture; });
+}
+
+/// That kernels read.
+bool hasLobeTexture(const Material& m) {
+    LobeTextures read = m.lobeTextures;
+    read.thickness = kNoTexture;
+    return read != LobeTextures{};
+}
+
+/// glTF has the normal of a clear coat from a texture of its own, or from the mesh.
+bool hasCoatNormal(const Material& m) {
+    const LobeTextures& lobes = m.lobeTextures;
+    if (m.clearcoat <= 0.0f || (m.normalTexture == kNoTexture && lobes.clearcoatNormal == kNoTexture)) return false;
+    return m.normalTexture != lobes.clearcoatNormal || m.normalScale != lobes.clearcoatNormalScale;
+}
+
+bool hasNormalMap(const Material& m) {
+    return m.normalTexture != kNoTexture || (m.clearcoat > 0.0f && m.lobeTextures.clearcoatNormal != kNoTexture);
 }
 
 bool isLit(glm::vec3 color) { return glm::any(glm::greaterThan(color, glm::vec3(0.0f))); }
@@ -73,16 +92,23 @@ Need instancingNeed(const TreePlan& plan) {
         reason = "a tree for each of " + count(plan.asked, "mesh", "meshes");
     else if (plan.hasUpperTree())
         reason = count(plan.sharedMeshes, "mesh is", "meshes are") + " shown more than once, " +
-                 count(plan.fineMeshes, "is", "are") + " finer than a grid over the world";
+                 count(plan.fineMeshes, "is", "are") + " finer than a grid over the world, " +
+                 count(plan.movingMeshes, "moves", "move");
     return {shared::kNeedInstancing, "instancing", plan.hasUpperTree(), reason};
 }
 
 Need transformNeed(const Scene& scene) {
     const auto n =
         static_cast<size_t>(std::count_if(scene.instances.begin(), scene.instances.end(),
-                                          [](const Instance& i) { return i.objectToWorld != glm::mat4(1.0f); }));
+                                          [](const Instance& i) { return i.objectToWorld != glm::mat4(1.0f) || moves(i); }));
     return {shared::kNeedTransforms, "transforms", n > 0,
             n > 0 ? count(n, "instance is", "instances are") + " moved" : "every matrix is the identity"};
+}
+
+Need motionNeed(const Scene& scene) {
+    const auto n = static_cast<size_t>(std::ranges::count_if(scene.instances, moves));
+    return {shared::kNeedMotion, "motion", n > 0,
+            n > 0 ? count(n, "instance moves", "instances move") + " while the shutter is open" : "every instance stands still"};
 }
 
 Need smoothNeed(const Scene& scene, const TreePlan& plan) {
@@ -124,6 +150,11 @@ TreePlan planTrees(const Scene& scene, const TreePlanConfig& config) {
     plan.ownTree.resize(scene.meshes.size(), false);
     for (const Instance& instance : scene.instances) ++plan.useCount[instance.mesh];
     const double finest = config.gridOverTree ? finestEdge(scene) : 0.0;
+    for (const Instance& instance : scene.instances) {
+        if (!moves(instance) || plan.ownTree[instance.mesh] || config.treePerMesh) continue;
+        plan.ownTree[instance.mesh] = true;
+        ++plan.movingMeshes;
+    }
     const bool flattens = triangleCount(scene).instanced <= config.flattenLimit;
     for (const Instance& instance : scene.instances) {
         const size_t mesh = instance.mesh;
@@ -150,8 +181,7 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
         transformNeed(scene),
         smoothNeed(scene, plan),
         materialNeed(shared::kNeedTextures, "textures", worn, "with a texture", hasTexture),
-        materialNeed(shared::kNeedNormalMaps, "normal maps", worn, "with a normal map",
-                     [](const Material& m) { return m.normalTexture != kNoTexture; }),
+        materialNeed(shared::kNeedNormalMaps, "normal maps", worn, "with a normal map", hasNormalMap),
         materialNeed(shared::kNeedAlpha, "alpha", worn, "cut out or blended by alpha", isAlphaTested),
         materialNeed(shared::kNeedSpecular, "GGX reflection", worn, "that reflects",
                      [](const Material& m) { return m.metallic > 0.0f || m.specular > 0.0f || hasPhongGloss(m); }),
@@ -166,7 +196,10 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
          scene.environment ? "radiance from infinitely far away" : "black beyond the scene"},
         quadricNeed(scene),
         materialNeed(shared::kNeedSpecularTint, "specular tint", worn, "of coloured dielectric reflection",
-                     [](const Material& m) { return m.metallic < 1.0f && m.specularColor != glm::vec3(1.0f); }),
+                     [](const Material& m) {
+                         return m.metallic < 1.0f && (m.specularColor != glm::vec3(1.0f) ||
+                                                      m.lobeTextures.specularColor != kNoTexture);
+                     }),
         materialNeed(shared::kNeedClearcoat, "clearcoat", worn, "with a clear coat",
                      [](const Material& m) { return m.clearcoat > 0.0f; }),
         materialNeed(shared::kNeedSheen, "sheen", worn, "with sheen", [](const Material& m) { return isLit(m.sheenColor); }),
@@ -177,6 +210,11 @@ SceneNeeds analyseNeeds(const Scene& scene, const TreePlanConfig& config) {
         materialNeed(shared::kNeedAbsorption, "absorption", worn, "that light fades in", absorbs),
         materialNeed(shared::kNeedNesting, "nested dielectrics", worn, "of a volume with a priority",
                      [](const Material& m) { return isSolid(m) && m.priority > 0; }),
+        materialNeed(shared::kNeedLobeTextures, "textures of lobes", worn, "with a texture of a coat, sheen, transmission...",
+                     hasLobeTexture),
+        materialNeed(shared::kNeedCoatNormals, "normals of coats", worn, "whose clear coat has a normal of its own",
+                     hasCoatNormal),
+        motionNeed(scene),
     };
     for (const Need& need : result.needs)
         if (need.needed) result.mask |= need.bit;

@@ -34,15 +34,16 @@ struct TreePlanConfig {
 
 /// How the trees are laid out. All in one tree in world space, unless the scene shows too many triangles: then a mesh that is
 /// shown more than once has a tree of its own below its instances, and so has one whose detail is too fine for a grid over the
-/// world. Or every mesh has one.
+/// world, and one of which an instance moves. Or every mesh has one.
 struct TreePlan {
     std::vector<uint32_t> useCount;  ///< instances by mesh
     std::vector<bool> ownTree;       ///< by mesh; false also for meshes that no instance shows
     size_t sharedMeshes = 0;         ///< shown more than once
     size_t fineMeshes = 0;           ///< shown once, with a tree of their own because of the grid
+    size_t movingMeshes = 0;         ///< with a tree of their own because an instance of theirs moves
     size_t asked = 0;                ///< meshes with a tree of their own because each is to have one
 
-    bool hasUpperTree() const { return sharedMeshes + fineMeshes + asked > 0; }
+    bool hasUpperTree() const { return sharedMeshes + fineMeshes + movingMeshes + asked > 0; }
 };
 
 TreePlan planTrees(const Scene& scene, const TreePlanConfig& config);

@@ -56,7 +56,7 @@ bool hasVolume(const Material& m) {
 json volumeJson(const Material& material) {
     json volume = json::object();
     // The thickness is for rasterisers: a ray knows where it leaves a volume.
-    if (!material.thin) volume["thicknessFactor"] = 1.0f;
+    if (!material.thin) volume["thicknessFactor"] = material.thickness;
     if (material.attenuationColor != glm::vec3(1.0f)) volume["attenuationColor"] = toJson(material.attenuationColor);
     if (std::isfinite(material.attenuationDistance)) volume["attenuationDistance"] = material.attenuationDistance;
     return volume;
@@ -75,6 +75,25 @@ void addLobes(const Material& m, json& extensions) {
                                                   {"anisotropyRotation", m.anisotropyRotationRadians}};
 }
 
+/// A texture of a factor that glTF takes for granted is saved all the same: an extension of its own for it.
+void addLobeTextures(const LobeTextures& t, json& extensions) {
+    const auto set = [&extensions](const char* extension, const char* key, int32_t texture) {
+        if (texture != kNoTexture) setTexture(extensions[extension], key, texture);
+    };
+    set("KHR_materials_clearcoat", "clearcoatTexture", t.clearcoat);
+    set("KHR_materials_clearcoat", "clearcoatRoughnessTexture", t.clearcoatRoughness);
+    set("KHR_materials_clearcoat", "clearcoatNormalTexture", t.clearcoatNormal);
+    if (t.clearcoatNormal != kNoTexture)
+        extensions["KHR_materials_clearcoat"]["clearcoatNormalTexture"]["scale"] = t.clearcoatNormalScale;
+    set("KHR_materials_sheen", "sheenColorTexture", t.sheenColor);
+    set("KHR_materials_sheen", "sheenRoughnessTexture", t.sheenRoughness);
+    set("KHR_materials_anisotropy", "anisotropyTexture", t.anisotropy);
+    set("KHR_materials_specular", "specularTexture", t.specular);
+    set("KHR_materials_specular", "specularColorTexture", t.specularColor);
+    set("KHR_materials_transmission", "transmissionTexture", t.transmission);
+    set("KHR_materials_volume", "thicknessTexture", t.thickness);
+}
+
 /// Only those that differ from what glTF takes for granted.
 json extensionsJson(const Material& material) {
     json extensions = json::object();
@@ -88,6 +107,7 @@ json extensionsJson(const Material& material) {
     if (material.specularColor != glm::vec3(1.0f))
         extensions["KHR_materials_specular"]["specularColorFactor"] = toJson(material.specularColor);
     addLobes(material, extensions);
+    addLobeTextures(material.lobeTextures, extensions);
     return extensions;
 }
 

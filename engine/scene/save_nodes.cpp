@@ -3,6 +3,7 @@
 
 #include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_nodes.h"
+#include "engine/scene/instance_motion.h"
 #include "engine/scene/mesh_shading.h"
 #include "engine/scene/quadric.h"
 #include "engine/scene/save_parts.h"
@@ -85,6 +86,7 @@ void addInstances(const Scene& scene, const std::vector<std::optional<size_t>>& 
         else
             node["extras"]["raylab"]["quadrics"] = *stored[instance.mesh];
         if (instance.objectToWorld != glm::mat4(1.0f)) node["matrix"] = matrixJson(instance.objectToWorld);
+        if (moves(instance)) node["extras"]["raylab"]["endMatrix"] = matrixJson(*instance.endToWorld);
         addNode(document, std::move(node));
     }
 }

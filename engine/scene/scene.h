@@ -46,6 +46,23 @@ struct PhongMaterial {
     bool operator==(const PhongMaterial&) const = default;
 };
 
+/// Textures of what few materials have, each a factor of the Material's number of that name; indices as there.
+struct LobeTextures {
+    int32_t clearcoat = kNoTexture;           ///< R
+    int32_t clearcoatRoughness = kNoTexture;  ///< G
+    int32_t clearcoatNormal = kNoTexture;     ///< tangent space, +Y up; without: the coat's normal is the mesh's
+    float clearcoatNormalScale = 1.0f;
+    int32_t sheenColor = kNoTexture;      ///< RGB
+    int32_t sheenRoughness = kNoTexture;  ///< A
+    int32_t anisotropy = kNoTexture;      ///< RG direction in -1 to 1, which the rotation turns further; B strength
+    int32_t specular = kNoTexture;        ///< A
+    int32_t specularColor = kNoTexture;   ///< RGB
+    int32_t transmission = kNoTexture;    ///< R
+    int32_t thickness = kNoTexture;       ///< G; for rasterisers: kept, and not read
+
+    bool operator==(const LobeTextures&) const = default;
+};
+
 /// Metallic-roughness material (glTF 2.0, appendix B) with transmission. Colours are linear sRGB primaries.
 /// Texture indices refer to Scene::textures; each texture multiplies its factor.
 struct Material {
@@ -76,6 +93,8 @@ struct Material {
     float anisotropyRotationRadians = 0.0f;  ///< of that direction from the tangent, towards the bitangent
     glm::vec3 attenuationColor{1.0f};        ///< what is left of white light after attenuationDistance inside the volume
     float attenuationDistance = std::numeric_limits<float>::infinity();  ///< scene units, positive
+    float thickness = 1.0f;  ///< of a volume, above 0, as a rasteriser takes it: kept, and not read
+    LobeTextures lobeTextures;
     uint32_t priority = 0;  ///< of volumes that overlap: the one of the highest priority is there, the others are not
     std::optional<PhongMaterial> phong;  ///< nothing: derived from the above
 
@@ -114,7 +133,8 @@ struct Mesh {
 struct Instance {
     std::string name;
     uint32_t mesh = 0;
-    glm::mat4 objectToWorld{1.0f};
+    glm::mat4 objectToWorld{1.0f};                        ///< where the shutter opens
+    std::optional<glm::mat4> endToWorld = std::nullopt;   ///< the same where it closes; nothing: the instance stands still
 
     bool operator==(const Instance&) const = default;
 };

@@ -11,6 +11,7 @@
 
 vec3 integrate(uvec2 pixel, uint sampleIndex) {
     Sampler random = makeSampler(frame.seed, pixel, frame.width, sampleIndex);
+    setRayTime(random);
     Ray ray = cameraRay(pixel, random);
     RayCone cone = RayCone(0.0, frame.pixelSpread);
     if (kIntegrator == kIntegratorPath) return integratePath(ray, cone, random);

@@ -118,11 +118,12 @@ bool scatterPath(inout PathState path, inout Ray ray, Surface s, vec3 wo, Sample
         path.etaScale *= s.eta * s.eta;
         if (needs(kNeedAbsorption | kNeedNesting)) path.media = across(path.media, s);
     }
-    if (path.bounce >= frame.rouletteDepth) {
-        float survival = min(maxComponent(path.throughput) * path.etaScale, 0.95);
-        lives = lives && !(lobe.y >= survival);
-        path.throughput /= survival;
-    }
+    // What is left, but for the scale of radiance inside a medium. From the first bounce on, paths of less than the threshold
+    // survive in proportion to it; behind the roulette's depth all do.
+    float left = maxComponent(path.throughput) * path.etaScale;
+    float survival = path.bounce >= frame.rouletteDepth ? min(left, 0.95) : min(left * frame.inverseThroughputEnd, 1.0);
+    lives = lives && !(lobe.y >= survival);
+    path.throughput /= survival;
     path.scatterPdf = next.pdf;
     path.cone.spread += next.pdf > 0.0 ? kDiffuseSpread * min(s.metallic > 0.5 ? s.alpha : 1.0, 1.0) : 0.0;
     ray = Ray(offsetOrigin(s, next.direction), 0.0, next.direction, kInfinity, 0u);

@@ -13,7 +13,6 @@ layout(constant_id = kSpecCameraMotion) const uint kCameraMotion = 0;
 // Pairs of dimensions that the camera takes: an integrator has the others.
 const uint kPairPixel = 0u;
 const uint kPairLens = 1u;
-const uint kPairTime = 0x80000000u;  // beyond what integrators take
 
 // Scaled as in FrameParams.
 struct CameraPose {
@@ -27,7 +26,7 @@ struct CameraPose {
 CameraPose cameraPose(Sampler random) {
     CameraPose start = CameraPose(frame.cameraPosition, frame.cameraRight, frame.cameraUp, frame.cameraForward);
     if (kCameraMotion == 0u) return start;
-    float time = frame.shutter * sample2D(random, kPairTime).x;
+    float time = sampleTime(random);
     return CameraPose(mix(start.position, frame.endPosition, time), mix(start.right, frame.endRight, time),
                       mix(start.up, frame.endUp, time), mix(start.forward, frame.endForward, time));
 }

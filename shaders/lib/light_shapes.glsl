@@ -56,10 +56,71 @@ ShapePoint sampleDiscLight(PunctualData light, vec3 position, vec2 u) {
                        kPi * light.shape.x * light.shape.x);
 }
 
+// A rectangle as a receiver in front of it sees it: corners in its own frame, of which z is minus the receiver's height above.
+struct SeenRectangle {
+    mat3 frame;  // along the first and the second edge, and the way that its light goes
+    vec2 low;
+    vec2 high;
+    float z;           // negative in front
+    float solidAngle;
+};
+
+// Solid angle of the triangle of three corners, whose triple product is `volume` (van Oosterom, Strackee, "The Solid Angle of
+// a Plane Triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983).
+float triangleAngle(vec3 a, vec3 b, vec3 c, float volume) {
+    float la = length(a), lb = length(b), lc = length(c);
+    return 2.0 * atan(volume, la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+}
+
+SeenRectangle seeRectangle(PunctualData light, vec3 position) {
+    vec3 x = normalize(light.direction), y = normalize(light.shape);
+    SeenRectangle r;
+    r.frame = mat3(x, y, cross(x, y));
+    vec3 corner = (light.position - position) * r.frame;
+    vec2 size = vec2(length(light.direction), length(light.shape));
+    r.low = corner.xy;
+    r.high = corner.xy + size;
+    r.z = corner.z;
+    vec3 opposite = vec3(r.high, r.z);
+    float volume = size.x * size.y * abs(r.z);
+    r.solidAngle = triangleAngle(corner, vec3(r.high.x, r.low.y, r.z), opposite, volume) +
+                   triangleAngle(corner, vec3(r.low.x, r.high.y, r.z), opposite, volume);
+    return r;
+}
+
+// A smaller solid angle is lost among the angles of the spherical rectangle's corners: then the area serves, over which the
+// solid angle hardly varies.
+const float kSmallestSolidAngle = 0.01;
+
+// Evenly over the solid angle (Urena, Fajardo, King, "An Area-Preserving Parametrization for Spherical Rectangles", EGSR 2013).
+// Returns the point in the rectangle's frame.
+vec3 pointOfSolidAngle(SeenRectangle r, vec2 u) {
+    // z of the normals of the planes through the receiver and the edges, in turn.
+    vec4 n = vec4(-r.low.y, r.high.x, r.high.y, -r.low.x);
+    n *= inversesqrt(r.z * r.z + n * n);
+    float k = 2.0 * kPi - acos(-n.z * n.w) - acos(-n.w * n.x);
+    float angle = u.x * r.solidAngle + k;
+    float f = (cos(angle) * n.x - n.z) / sin(angle);
+    float c = clamp((f > 0.0 ? 1.0 : -1.0) * inversesqrt(f * f + n.x * n.x), -1.0, 1.0);
+    float x = clamp(-c * r.z * inversesqrt(max(1.0 - c * c, 1e-14)), r.low.x, r.high.x);
+    float distance = sqrt(x * x + r.z * r.z);
+    float h0 = r.low.y / length(vec2(distance, r.low.y)), h1 = r.high.y / length(vec2(distance, r.high.y));
+    float h = mix(h0, h1, u.y);
+    float y = clamp(h * distance * inversesqrt(max(1.0 - h * h, 1e-14)), r.low.y, r.high.y);
+    return vec3(x, y, r.z);
+}
+
 ShapePoint sampleRectangle(PunctualData light, vec3 position, vec2 u) {
-    vec3 normal = cross(light.direction, light.shape);
-    float area = length(normal);
-    return pointOfArea(light.position + u.x * light.direction + u.y * light.shape - position, normal / area, area);
+    SeenRectangle r = seeRectangle(light, position);
+    if (r.z >= 0.0) return kNoShapePoint;
+    if (r.solidAngle < kSmallestSolidAngle) {
+        vec3 normal = cross(light.direction, light.shape);
+        float area = length(normal);
+        return pointOfArea(light.position + u.x * light.direction + u.y * light.shape - position, normal / area, area);
+    }
+    vec3 toPoint = r.frame * pointOfSolidAngle(r, u);
+    float distance = length(toPoint);
+    return ShapePoint(toPoint / distance, distance, 1.0 / r.solidAngle);
 }
 
 ShapePoint sampleShape(PunctualData light, vec3 position, vec2 u) {
@@ -103,7 +164,9 @@ ShapePoint hitRectangle(PunctualData light, Ray ray) {
     vec3 fromCorner = ray.origin + at.distance * ray.direction - light.position;
     vec2 within = vec2(dot(fromCorner, light.direction) / dot(light.direction, light.direction),
                        dot(fromCorner, light.shape) / dot(light.shape, light.shape));
-    at.pdf = all(lessThanEqual(abs(within - 0.5), vec2(0.5))) ? at.pdf / area : 0.0;
+    bool isHit = at.pdf > 0.0 && all(lessThanEqual(abs(within - 0.5), vec2(0.5)));
+    float solidAngle = seeRectangle(light, ray.origin).solidAngle;
+    at.pdf = isHit ? (solidAngle < kSmallestSolidAngle ? at.pdf / area : 1.0 / solidAngle) : 0.0;
     return at;
 }
 

@@ -116,6 +116,16 @@ vec2 sample2D(Sampler s, uint pair) {
     return unitFloat(bits);
 }
 
+const uint kPairTime = 0x80000000u;  // beyond what camera and integrators take
+
+// When a sample is taken: of the camera's motion and the instances'.
+float sampleTime(Sampler s) { return frame.shutter * sample2D(s, kPairTime).x; }
+
+// From here on the scene stands as the sample sees it.
+void setRayTime(Sampler s) {
+    if (needs(kNeedMotion)) rayTime = sampleTime(s);
+}
+
 // A key for choices inside a traversal (blended alpha): the same for every backend.
 uint traceKey(Sampler s, uint pair) {
     uint key = hashCombine(hashCombine(s.key, s.index), pair);

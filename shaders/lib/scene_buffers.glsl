@@ -31,6 +31,7 @@ layout(set = 0, binding = kBindNodes) uniform usamplerBuffer nodeWords;
 layout(set = 0, binding = kBindTraceTriangles) uniform usamplerBuffer traceTriangleWords;
 layout(set = 0, binding = kBindTraceInstances) uniform usamplerBuffer traceInstanceWords;
 layout(set = 0, binding = kBindInstances) uniform usamplerBuffer instanceWords;
+layout(set = 0, binding = kBindMotion) uniform usamplerBuffer motionWords;
 layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer triangleWords;
 layout(set = 0, binding = kBindQuadrics) uniform usamplerBuffer quadricWords;
 layout(set = 0, binding = kBindTraceQuadrics) uniform usamplerBuffer traceQuadricWords;
@@ -39,6 +40,7 @@ layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer materialWords;
 layout(set = 0, binding = kBindPhong) uniform usamplerBuffer phongWords;
 layout(set = 0, binding = kBindAlbedo) uniform usamplerBuffer albedoWords;
 layout(set = 0, binding = kBindLobes) uniform usamplerBuffer lobeWords;
+layout(set = 0, binding = kBindLobeTextures) uniform usamplerBuffer lobeTextureWords;
 layout(set = 0, binding = kBindTextures) uniform usamplerBuffer textureWords;
 layout(set = 0, binding = kBindTexels) uniform usamplerBuffer texels;
 layout(set = 0, binding = kBindEmissive) uniform usamplerBuffer emissiveWords;
@@ -51,6 +53,19 @@ InstanceData loadInstanceHeader(uint instance) {
     return InstanceData(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), w.x, w.y, w.z, w.w);
 }
 
+// The moment, between 0 where the shutter opens and 1 where it closes, at which this invocation sees the scene.
+float rayTime = 0.0;
+
+// Rows of a matrix between both ends of the motion: points move in straight lines.
+void moveInstance(uint instance, inout InstanceData data) {
+    if ((data.flags & kInstanceMoves) == 0u) return;
+    int at = int(instance * kWordsMotion);
+    data.objectToWorld0 = mix(data.objectToWorld0, uintBitsToFloat(texelFetch(motionWords, at)), rayTime);
+    data.objectToWorld1 = mix(data.objectToWorld1, uintBitsToFloat(texelFetch(motionWords, at + 1)), rayTime);
+    data.objectToWorld2 = mix(data.objectToWorld2, uintBitsToFloat(texelFetch(motionWords, at + 2)), rayTime);
+}
+
+// As it stands at rayTime.
 InstanceData loadInstance(uint instance) {
     InstanceData data = loadInstanceHeader(instance);
     if (needs(kNeedTransforms)) {
@@ -58,9 +73,27 @@ InstanceData loadInstance(uint instance) {
         data.objectToWorld0 = uintBitsToFloat(texelFetch(instanceWords, at));
         data.objectToWorld1 = uintBitsToFloat(texelFetch(instanceWords, at + 1));
         data.objectToWorld2 = uintBitsToFloat(texelFetch(instanceWords, at + 2));
+        if (needs(kNeedMotion)) moveInstance(instance, data);
     }
     return data;
 }
+
+// Times the determinant: the vector of object space that is `v` in world space. By the cofactors.
+vec3 timesInverse(InstanceData data, vec3 v) {
+    vec3 r0 = data.objectToWorld0.xyz, r1 = data.objectToWorld1.xyz, r2 = data.objectToWorld2.xyz;
+    return cross(r1, r2) * v.x + cross(r2, r0) * v.y + cross(r0, r1) * v.z;
+}
+
+float determinantOf(InstanceData data) {
+    return dot(data.objectToWorld0.xyz, cross(data.objectToWorld1.xyz, data.objectToWorld2.xyz));
+}
+
+// A world-space point and vector in object space.
+vec3 pointToObject(InstanceData data, vec3 p) {
+    vec3 origin = vec3(data.objectToWorld0.w, data.objectToWorld1.w, data.objectToWorld2.w);
+    return timesInverse(data, p - origin) / determinantOf(data);
+}
+vec3 vectorToObject(InstanceData data, vec3 v) { return timesInverse(data, v) / determinantOf(data); }
 
 MaterialData loadMaterial(uint material) {
     int at = int(material * kWordsMaterial);
@@ -85,6 +118,14 @@ LobeData loadLobes(uint material) {
     if (needs(kNeedAnisotropy | kNeedNesting)) d = texelFetch(lobeWords, at + 3);
     vec3 df = uintBitsToFloat(d.xyz);
     return LobeData(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, df.x, df.y, df.z, d.w);
+}
+
+LobeTextureData loadLobeTextures(uint material) {
+    int at = int(material * kWordsLobeTextures);
+    uvec4 a = texelFetch(lobeTextureWords, at);
+    uvec4 b = texelFetch(lobeTextureWords, at + 1);
+    uvec2 c = texelFetch(lobeTextureWords, at + 2).xy;
+    return LobeTextureData(a.x, a.y, a.z, uintBitsToFloat(a.w), b.x, b.y, b.z, b.w, c.x, c.y, 0u, 0u);
 }
 
 PhongData loadPhong(uint material) {

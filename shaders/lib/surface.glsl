@@ -4,6 +4,7 @@
 #define RAYLAB_SURFACE_GLSL
 
 #include "lib/quadric_uv.glsl"
+#include "lib/rounding.glsl"
 #include "lib/sampling.glsl"
 #include "lib/texture.glsl"
 #include "trace/common.glsl"
@@ -40,15 +41,11 @@ struct Surface {
     LobeData lobes;
     vec3 tangent;        // unit, of s.normal: along it the anisotropic roughness lies; kNeedAnisotropy alone
     float alphaTangent;  // GGX along it, alpha across
+    vec3 coatNormal;     // as the normal, of the clear coat; kNeedCoatNormals alone
 };
 
 // Below this GGX alpha a lobe is narrower than floats resolve: it is a mirror.
 const float kSmallestAlpha = 1.0e-3;
-
-const float kMachineEpsilon = 5.9604644775390625e-8;
-float roundingBound(int operations) {
-    return float(operations) * kMachineEpsilon / (1.0 - float(operations) * kMachineEpsilon);
-}
 
 vec3 transformPoint(InstanceData data, vec3 p) {
     vec4 h = vec4(p, 1.0);
@@ -73,7 +70,8 @@ vec3 transformNormal(InstanceData data, vec3 n) {
 vec3 positionErrorBound(InstanceData data, vec3 largest) {
     if (!needs(kNeedTransforms)) return roundingBound(8) * largest;
     vec4 h = vec4(largest, 1.0);
-    return roundingBound(14) *
+    // A matrix between two is rounded, and so is its inverse.
+    return roundingBound(needs(kNeedMotion) ? 40 : 14) *
            vec3(dot(abs(data.objectToWorld0), h), dot(abs(data.objectToWorld1), h), dot(abs(data.objectToWorld2), h));
 }
 
@@ -122,35 +120,6 @@ vec2 vertexUv(uint vertex) { return uintBitsToFloat(texelFetch(vertexWords, int(
 
 vec4 vertexTangent(uint vertex) { return decodeTangent(texelFetch(vertexWords, int(vertex * kWordsVertex + 1u)).z); }
 
-// How far rounding goes on a triangle, and where a hit on it has to be because of that.
-struct Roundings {
-    float distance;  // bound of the error of the distance at which it, or a coplanar neighbour, would be hit again
-    vec3 inset;      // to add to the position
-};
-
-// Drivers' tests take t as a mean of the vertices' distances by edge functions, whose products round in proportion to the square
-// of the length: over the area, that is the length over the height. Ours errs less (planeDistance() in trace/triangle.glsl), but
-// paths are to be the same on all tracers. No further than the triangle is high.
-// A hit beside an edge may be rounded to a place beyond it, behind the wall that stands there: it is moved inwards, in the
-// plane, until it is as far from each edge as the position and the wall's distance may be wrong, or a quarter of the
-// triangle's height above it where that is less. In units of the longest edge, whose square may overflow.
-Roundings triangleRoundings(vec3 edge1, vec3 edge2, vec2 b, vec3 positionError) {
-    float longest = max(maxComponent(abs(edge1)), maxComponent(abs(edge2)));
-    float bound = roundingBound(4);
-    edge1 /= longest;
-    edge2 /= longest;
-    vec3 edge0 = edge2 - edge1, across = cross(edge1, edge2);
-    float twiceArea = length(across);
-    Roundings r;
-    r.distance = longest * max(bound, min(bound / twiceArea, twiceArea));
-    vec3 lengths = vec3(length(edge0), length(edge2), length(edge1));
-    vec3 heights = twiceArea / lengths;
-    vec3 room = min(vec3(bound + maxComponent(positionError) / longest), 0.25 * heights);
-    vec3 shift = longest * max(room - vec3(1.0 - b.x - b.y, b) * heights, 0.0) / (twiceArea * lengths);
-    r.inset = shift.x * cross(across, edge0) - shift.y * cross(across, edge2) + shift.z * cross(across, edge1);
-    return r;
-}
-
 Patch trianglePatch(Hit hit, InstanceData data) {
     uvec4 i = texelFetch(triangleWords, int(data.firstPrimitive + hit.primitive));
     uvec4 v0 = texelFetch(vertexWords, int(i.x * kWordsVertex));
@@ -196,14 +165,6 @@ Patch trianglePatch(Hit hit, InstanceData data) {
     return p;
 }
 
-// A world-space point in object space. By the cofactors, as transformNormal().
-vec3 toObject(InstanceData data, vec3 p) {
-    vec3 r0 = data.objectToWorld0.xyz, r1 = data.objectToWorld1.xyz, r2 = data.objectToWorld2.xyz;
-    vec3 q = p - vec3(data.objectToWorld0.w, data.objectToWorld1.w, data.objectToWorld2.w);
-    vec3 c0 = cross(r1, r2);
-    return (c0 * q.x + cross(r2, r0) * q.y + cross(r0, r1) * q.z) / dot(r0, c0);
-}
-
 // Newton steps that take a point near a quadric onto it, along the gradient: the distance along a ray is not known well
 // enough (Pharr, Jakob, Humphreys, section 6.8.5). The second one is for rays from far away.
 const int kQuadricSteps = 2;
@@ -215,7 +176,7 @@ Patch quadricPatch(Ray ray, Hit hit, InstanceData data) {
     vec3 radii = w0.xyz;
     float zz = w0.w, z = uintBitsToFloat(rest.x), constant = uintBitsToFloat(rest.y);
     vec3 local = ray.origin + hit.t * ray.direction;
-    if (needs(kNeedTransforms)) local = toObject(data, local);
+    if (needs(kNeedTransforms)) local = pointToObject(data, local);
     vec3 c = local / radii;
     vec3 gradient;
     for (int i = 0; i <= kQuadricSteps; ++i) {
@@ -259,13 +220,13 @@ bool tangentFrame(InstanceData data, vec4 along, vec3 n, out vec3 tangent, out v
     return true;
 }
 
-vec3 mappedNormal(InstanceData data, MaterialData material, Patch at, float lod, float u) {
+vec3 mappedNormal(InstanceData data, uint texture, float scale, Patch at, float lod, float u) {
     vec3 n = at.shading;
-    if (!needs(kNeedNormalMaps) || material.normalTexture == kNoTextureIndex) return n;
+    if (!needs(kNeedNormalMaps) || texture == kNoTextureIndex) return n;
     vec3 tangent, bitangent;
     if (!tangentFrame(data, at.tangent, n, tangent, bitangent)) return n;
-    vec3 m = fetchMaterialTexture(material.normalTexture, at.uv, lod, u).xyz * 2.0 - 1.0;
-    m.xy *= material.normalScale;
+    vec3 m = fetchMaterialTexture(texture, at.uv, lod, u).xyz * 2.0 - 1.0;
+    m.xy *= scale;
     vec3 mapped = m.x * tangent + m.y * bitangent + m.z * n;
     return dot(mapped, mapped) > 0.0 ? normalize(mapped) : n;
 }
@@ -280,6 +241,42 @@ void setAnisotropy(inout Surface s, InstanceData data, vec4 along) {
         s.tangent = s.lobes.tangentCos * tangent + s.lobes.tangentSin * bitangent;
     s.alpha = max(s.alpha, kSmallestAlpha);
     s.alphaTangent = mix(s.alpha, 1.0, s.lobes.anisotropy * s.lobes.anisotropy);
+}
+
+// Red where there is a texture, else 1; and so on for the other channels.
+vec4 factorTexture(uint texture, vec2 uv, float lod, float u) {
+    return texture == kNoTextureIndex ? vec4(1.0) : fetchMaterialTexture(texture, uv, lod, u);
+}
+
+// The textures of KHR_materials_{clearcoat, sheen, anisotropy, specular, transmission}. A direction of anisotropy is turned by
+// the material's own rotation.
+void applyLobeTextures(inout Surface s, InstanceData data, Patch at, vec3 wo, float lod, float u) {
+    LobeTextureData t = loadLobeTextures(s.material);
+    if (needs(kNeedClearcoat)) {
+        s.lobes.clearcoat *= factorTexture(t.clearcoat, s.uv, lod, u).r;
+        float roughness = factorTexture(t.clearcoatRoughness, s.uv, lod, u).g;
+        s.lobes.clearcoatAlpha *= roughness * roughness;
+    }
+    if (needs(kNeedCoatNormals)) {
+        vec3 n = mappedNormal(data, t.clearcoatNormal, t.clearcoatNormalScale, at, lod, u);
+        s.coatNormal = visibleNormal(s.frontFace ? n : -n, wo);
+    }
+    if (needs(kNeedSheen)) {
+        s.lobes.sheenColor *= factorTexture(t.sheenColor, s.uv, lod, u).rgb;
+        s.lobes.sheenRoughness *= factorTexture(t.sheenRoughness, s.uv, lod, u).a;
+    }
+    if (needs(kNeedAnisotropy) && t.anisotropy != kNoTextureIndex) {
+        vec3 texel = fetchMaterialTexture(t.anisotropy, s.uv, lod, u).rgb;
+        vec2 along = texel.xy * 2.0 - 1.0;
+        along = dot(along, along) > 1e-8 ? normalize(along) : vec2(1.0, 0.0);
+        vec2 rotation = vec2(s.lobes.tangentCos, s.lobes.tangentSin);
+        s.lobes.tangentCos = along.x * rotation.x - along.y * rotation.y;
+        s.lobes.tangentSin = along.x * rotation.y + along.y * rotation.x;
+        s.lobes.anisotropy *= texel.b;
+    }
+    if (needs(kNeedSpecular)) s.specular *= factorTexture(t.specular, s.uv, lod, u).a;
+    if (needs(kNeedSpecularTint)) s.lobes.specularColor *= factorTexture(t.specularColor, s.uv, lod, u).rgb;
+    if (needs(kNeedTransmission)) s.transmission *= factorTexture(t.transmission, s.uv, lod, u).r;
 }
 
 // `ray`: the one that hit, of unit direction. `u`: rounds texture levels.
@@ -303,7 +300,7 @@ Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
     float lod = 0.0;
     if (needs(kNeedTextures))
         lod = coneLod(cone, at.edge1, at.edge2, at.uvEdge1, at.uvEdge2, abs(dot(at.normal, wo)));
-    vec3 shading = mappedNormal(data, material, at, lod, u);
+    vec3 shading = mappedNormal(data, material.normalTexture, material.normalScale, at, lod, u);
     s.geometricNormal = s.frontFace ? at.normal : -at.normal;
     s.normal = visibleNormal(s.frontFace ? shading : -shading, wo);
 
@@ -327,7 +324,9 @@ Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
     if (needs(kNeedSpecular) && s.metallic > 0.5) s.normal = reflectingNormal(s.normal, s.geometricNormal, wo);
     bool emits = s.frontFace || (material.flags & kMaterialDoubleSided) != 0u;
     s.emission = emits ? s.emission : vec3(0.0);
-    s.emissionWeight = isQuadric ? 0.0 : material.emissionWeight;  // light sampling knows triangles alone
+    // Light sampling knows triangles alone, and none that move.
+    bool isSampled = !isQuadric && (!needs(kNeedMotion) || (data.flags & kInstanceMoves) == 0u);
+    s.emissionWeight = isSampled ? material.emissionWeight : 0.0;
     s.alpha = roughness * roughness;
     s.transmission = material.transmission;
     s.ior = material.ior;
@@ -335,6 +334,8 @@ Surface surfaceAt(Ray ray, Hit hit, RayCone cone, float u) {
     s.thin = (material.flags & kMaterialThin) != 0u;
     s.eta = s.frontFace || s.thin ? s.ior : 1.0 / s.ior;
     s.lobes = loadLobes(s.material);
+    s.coatNormal = s.normal;
+    if (needs(kNeedLobeTextures | kNeedCoatNormals)) applyLobeTextures(s, data, at, wo, lod, u);
     if (needs(kNeedAnisotropy)) setAnisotropy(s, data, at.tangent);
     return s;
 }

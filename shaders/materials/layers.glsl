@@ -7,24 +7,32 @@
 
 const float kClearcoatF0 = 0.04;  // KHR_materials_clearcoat: ior 1.5
 
+vec3 coatNormal(Surface s) { return needs(kNeedCoatNormals) ? s.coatNormal : s.normal; }
+
 bool isCoatSmooth(Surface s) { return s.lobes.clearcoatAlpha < kSmallestAlpha; }
 
 float clearcoatFresnel(float cosTheta) { return fresnelSchlick(vec3(kClearcoatF0), 1.0, cosTheta).x; }
 
-float clearcoatAlbedo(Surface s, float cosTheta) {
+// What the coat reflects of light from above it, at the cosine to its own normal; from below its horizon, nothing gets in.
+float clearcoatAlbedo(Surface s, vec3 w) {
+    float cosTheta = dot(w, coatNormal(s));
+    if (needs(kNeedCoatNormals) && cosTheta <= 0.0) return s.lobes.clearcoat;
     return s.lobes.clearcoat * schlickAlbedo(vec3(kClearcoatF0), 1.0, facetAlbedo(cosTheta, s.lobes.clearcoatAlpha)).x;
 }
 
-// f of the clear coat without a mirror's, and its density.
+// f of the clear coat without a mirror's, as of light that comes at the base's cosine; and its density.
 float evalClearcoat(Surface s, vec3 wo, vec3 wi, out float pdf) {
     pdf = 0.0;
     if (isCoatSmooth(s)) return 0.0;
-    float cosO = dot(wo, s.normal), cosI = dot(wi, s.normal);
+    vec3 n = coatNormal(s);
+    float cosO = dot(wo, n), cosI = dot(wi, n);
+    if (needs(kNeedCoatNormals) && cosI <= 0.0) return 0.0;
     vec3 h = normalize(wo + wi);
     float alpha = s.lobes.clearcoatAlpha;
-    Facets facets = Facets(ggxDistribution(dot(h, s.normal), alpha), ggxLambda(cosO, alpha), ggxLambda(cosI, alpha));
+    Facets facets = Facets(ggxDistribution(dot(h, n), alpha), ggxLambda(cosO, alpha), ggxLambda(cosI, alpha));
     pdf = pdfFacetReflection(facets, cosO);
-    return s.lobes.clearcoat * clearcoatFresnel(dot(wo, h)) * evalFacetReflection(facets, cosO, cosI);
+    float value = s.lobes.clearcoat * clearcoatFresnel(dot(wo, h)) * evalFacetReflection(facets, cosO, cosI);
+    return needs(kNeedCoatNormals) ? value * cosI / dot(wi, s.normal) : value;
 }
 
 // Fibres that stand out of the surface (Estevez, Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH course, 2017).

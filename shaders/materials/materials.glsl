@@ -23,7 +23,8 @@ struct Opaque {
     float coatShare;  // probability of the clear coat
 };
 
-Opaque opaqueOf(Surface s, float cosO) {
+Opaque opaqueOf(Surface s, vec3 wo) {
+    float cosO = dot(wo, s.normal);
     Opaque o = Opaque(baseOf(s, cosO), 0.0);
     if (needs(kNeedSheen)) {
         float sheen = sheenReflected(s, cosO);
@@ -33,7 +34,7 @@ Opaque opaqueOf(Surface s, float cosO) {
                                    ? clamp(1.0 - scattered / o.base.albedo, 0.1, 0.9) : o.base.specularShare;
     }
     if (needs(kNeedClearcoat)) {
-        float coat = clearcoatAlbedo(s, cosO);
+        float coat = clearcoatAlbedo(s, wo);
         float below = (1.0 - coat) * o.base.albedo;
         o.coatShare = coat > 0.0 ? clamp(coat / (coat + below), 0.1, below > 0.0 ? 0.9 : 1.0) : 0.0;
     }
@@ -44,9 +45,7 @@ Opaque opaqueOf(Surface s, float cosO) {
 float underSheen(Surface s, float cosO, float cosI) {
     return 1.0 - max(sheenReflected(s, cosO), sheenReflected(s, cosI));
 }
-float underClearcoat(Surface s, float cosO, float cosI) {
-    return 1.0 - max(clearcoatAlbedo(s, cosO), clearcoatAlbedo(s, cosI));
-}
+float underClearcoat(Surface s, vec3 wo, vec3 wi) { return 1.0 - max(clearcoatAlbedo(s, wo), clearcoatAlbedo(s, wi)); }
 
 // f of all opaque lobes that are no mirrors, and their density: both directions above the surface.
 vec3 evalOpaque(Surface s, Opaque o, vec3 wo, vec3 wi, out float pdf) {
@@ -57,7 +56,7 @@ vec3 evalOpaque(Surface s, Opaque o, vec3 wo, vec3 wi, out float pdf) {
     if (needs(kNeedClearcoat) && s.lobes.clearcoat > 0.0) {
         float coatPdf;
         float coat = evalClearcoat(s, wo, wi, coatPdf);
-        value = value * underClearcoat(s, cosO, cosI) + vec3(coat);
+        value = value * underClearcoat(s, wo, wi) + vec3(coat);
         pdf = mix(pdf, coatPdf, o.coatShare);
     }
     return value;
@@ -72,7 +71,7 @@ vec3 evalBsdf(Surface s, vec3 wo, vec3 wi, out float pdf) {
     float opaque = opaqueShare(s);
     vec3 value = vec3(0.0);
     if (opaque > 0.0 && cosI > 0.0) {
-        value = opaque * cosI * evalOpaque(s, opaqueOf(s, cosO), wo, wi, pdf);
+        value = opaque * cosI * evalOpaque(s, opaqueOf(s, wo), wo, wi, pdf);
         pdf *= opaque;
     }
     if (needs(kNeedRoughTransmission) && opaque < 1.0 && isRoughGlass(s)) {
@@ -83,8 +82,8 @@ vec3 evalBsdf(Surface s, vec3 wo, vec3 wi, out float pdf) {
     return value;
 }
 
-BsdfSample mirrored(Surface s, vec3 wo, vec3 weight) {
-    vec3 wi = 2.0 * dot(wo, s.normal) * s.normal - wo;
+BsdfSample mirrored(Surface s, vec3 n, vec3 wo, vec3 weight) {
+    vec3 wi = reflect(-wo, n);
     return dot(wi, s.geometricNormal) > 0.0 ? BsdfSample(wi, weight, 0.0, false) : kAbsorbed;
 }
 
@@ -103,8 +102,8 @@ BsdfSample sampleBase(Surface s, Opaque o, mat3 world, vec3 wo, float lobe, vec2
         }
         vec3 weight = fresnelSchlick(o.base.f0, o.base.f90, cosO) / (o.base.specularShare * (1.0 - o.coatShare));
         if (needs(kNeedSheen)) weight *= underSheen(s, cosO, cosO);
-        if (needs(kNeedClearcoat)) weight *= underClearcoat(s, cosO, cosO);
-        return mirrored(s, wo, weight);
+        if (needs(kNeedClearcoat)) weight *= underClearcoat(s, wo, reflect(-wo, s.normal));
+        return mirrored(s, s.normal, wo, weight);
     }
     float pdf;
     return scattered(s, wo, world * sampleCosineHemisphere(u, pdf));
@@ -122,12 +121,14 @@ BsdfSample sampleBsdf(Surface s, vec3 wo, float lobe, vec2 u) {
         lobe = (lobe - through) / (1.0 - through);
     }
     mat3 world = shadingFrame(s);
-    Opaque o = opaqueOf(s, dot(wo, s.normal));
+    Opaque o = opaqueOf(s, wo);
     if (needs(kNeedClearcoat) && o.coatShare > 0.0) {
         if (lobe < o.coatShare) {
+            vec3 n = coatNormal(s);
             if (isCoatSmooth(s))
-                return mirrored(s, wo, vec3(s.lobes.clearcoat * clearcoatFresnel(dot(wo, s.normal)) / o.coatShare));
-            vec3 h = world * sampleGgxNormal(wo * world, vec2(s.lobes.clearcoatAlpha), u);
+                return mirrored(s, n, wo, vec3(s.lobes.clearcoat * clearcoatFresnel(dot(wo, n)) / o.coatShare));
+            mat3 coat = needs(kNeedCoatNormals) ? frameAround(n) : world;
+            vec3 h = coat * sampleGgxNormal(wo * coat, vec2(s.lobes.clearcoatAlpha), u);
             return scattered(s, wo, 2.0 * dot(wo, h) * h - wo);
         }
         lobe = (lobe - o.coatShare) / (1.0 - o.coatShare);

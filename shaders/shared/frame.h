@@ -108,7 +108,7 @@ struct FrameParams {
     vec3 lightGridOrigin;  // of the boxes in the tree over lights
     uint sunDiscCount;  // the last of the punctual lights
     vec3 lightGridStep;
-    float padding0;
+    float inverseThroughputEnd;  // path: 1 / the throughput under which Russian roulette may end it at any bounce
     vec3 endPosition;  // of the camera where its motion ends, as above
     float padding1;
     vec3 endRight;

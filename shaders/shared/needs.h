@@ -26,8 +26,11 @@ RAYLAB_CONST uint kNeedRoughTransmission = 1u << 16;  // rough dielectric
 RAYLAB_CONST uint kNeedAbsorption = 1u << 17;     // light fades inside volumes
 RAYLAB_CONST uint kNeedNesting = 1u << 18;        // volumes that overlap, by priority
 RAYLAB_CONST uint kNeedShapes = 1u << 19;         // lights of a shape: spheres, discs, rectangles, the sun's disc
-RAYLAB_CONST uint kNeedCount = 20;
-RAYLAB_CONST uint kNeedAll = (1u << 20) - 1u;
+RAYLAB_CONST uint kNeedLobeTextures = 1u << 20;  // textures of lobes that few materials have
+RAYLAB_CONST uint kNeedCoatNormals = 1u << 21;   // a clear coat whose normal is not the base's
+RAYLAB_CONST uint kNeedMotion = 1u << 22;        // instances that move while the shutter is open
+RAYLAB_CONST uint kNeedCount = 23;
+RAYLAB_CONST uint kNeedAll = (1u << 23) - 1u;
 
 RAYLAB_SHARED_END
 #endif

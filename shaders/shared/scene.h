@@ -104,6 +104,16 @@ RAYLAB_CONST uint kWordsInstance = 4;
 RAYLAB_CONST uint kInstanceSmooth = 1u;    // vertices carry normals
 RAYLAB_CONST uint kInstanceMirrored = 2u;  // negative determinant
 RAYLAB_CONST uint kInstanceQuadric = 4u;   // of a mesh of quadrics
+RAYLAB_CONST uint kInstanceMoves = 8u;     // while the shutter is open
+
+// Where an instance is when the shutter closes, as in InstanceData; of those that stand still too, where any moves.
+struct MotionData {
+    vec4 endToWorld0;
+    vec4 endToWorld1;
+    vec4 endToWorld2;
+};
+RAYLAB_CHECK(MotionData, 48);
+RAYLAB_CONST uint kWordsMotion = 3;
 
 struct TriangleData {
     uint v0;
@@ -168,6 +178,24 @@ struct LobeData {
 };
 RAYLAB_CHECK(LobeData, 64);
 RAYLAB_CONST uint kWordsLobe = 4;
+
+// Textures of the lobes; kNoTextureIndex: none.
+struct LobeTextureData {
+    uint clearcoat;
+    uint clearcoatRoughness;
+    uint clearcoatNormal;
+    float clearcoatNormalScale;
+    uint sheenColor;
+    uint sheenRoughness;
+    uint anisotropy;
+    uint specular;
+    uint specularColor;
+    uint transmission;
+    uint padding0;
+    uint padding1;
+};
+RAYLAB_CHECK(LobeTextureData, 48);
+RAYLAB_CONST uint kWordsLobeTextures = 3;
 
 // What the Phong model knows of a material beside MaterialData (engine/scene/scene.h, PhongMaterial).
 struct PhongData {

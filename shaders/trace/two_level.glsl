@@ -104,6 +104,13 @@ void transformRay(Ray ray, uint slot, out vec3 origin, out vec3 direction) {
     vec4 o = vec4(ray.origin, 1.0);
     origin = vec3(dot(row0, o), dot(row1, o), dot(row2, o));
     direction = vec3(dot(row0.xyz, ray.direction), dot(row1.xyz, ray.direction), dot(row2.xyz, ray.direction));
+    if (!needs(kNeedMotion)) return;
+    uint instance = texelFetch(traceInstanceWords, at + 4).w;
+    if (instance == kInheritInstance) return;  // the merged tree
+    InstanceData data = loadInstance(instance);
+    if ((data.flags & kInstanceMoves) == 0u) return;
+    origin = pointToObject(data, ray.origin);
+    direction = vectorToObject(data, ray.direction);
 }
 
 // The ray below leaf `slot` of the upper tree. `root`: of the tree there.

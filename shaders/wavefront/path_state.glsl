@@ -16,6 +16,11 @@ Sampler samplerOf(uvec4 sampleWord) {
     return makeSampler(frame.seed, uvec2(sampleWord.x & 0xffffu, sampleWord.x >> 16), frame.width, sampleWord.y);
 }
 
+// Each kernel sees the scene when the path's sample is taken.
+void setPathTime(uint path) {
+    if (needs(kNeedMotion)) setRayTime(samplerOf(loadWord(kPathSample, path)));
+}
+
 // Boundaries that are passed unseen are no bounces: only where there are any do paths of a round differ.
 uint bounceAt(uint path) {
     return needs(kNeedNesting) ? loadWord(mediumWord(kLightTree), path).w : push.round;

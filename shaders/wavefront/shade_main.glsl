@@ -27,6 +27,7 @@ void main() {
     if (at < queueLength(push.round)) {
         path = queueWords[arrayAt(shadedArray(), at)];
         queued = loadPath(path);
+        setRayTime(queued.random);
         Hit hit;
         bool isHit = loadHit(path, hit);
         lives = shadePath(queued.state, queued.ray, hit, isHit, queued.random, shadow);

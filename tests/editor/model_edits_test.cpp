@@ -4,6 +4,7 @@
 #include "engine/scene/needs.h"
 #include "engine/scene/quadric.h"
 #include "engine/scene/save_gltf.h"
+#include "engine/scene/texture_slots.h"
 #include "model_support.h"
 #include "ui/editor/model/edit_cameras.h"
 #include "ui/editor/model/edit_instances.h"
@@ -302,7 +303,9 @@ TEST(EditorEdits, AnAddedShapeStandsWhereItIsAskedFor) {
 }
 
 TEST(EditorEdits, MergedScenesPointIntoThemselves) {
-    const Scene other = smallScene();
+    Scene other = smallScene();
+    other.materials[0].lobeTextures.sheenColor = 2;
+    other.instances[0].endToWorld = glm::translate(glm::mat4(1.0f), glm::vec3(1.0f, 0.0f, 0.0f));
     Document document(smallScene());
     const glm::mat4 placement = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 50.0f, 0.0f));
     document.apply(mergeScene(other, placement));
@@ -317,14 +320,16 @@ TEST(EditorEdits, MergedScenesPointIntoThemselves) {
         EXPECT_EQ(merged.objectToWorld, placement * mine.objectToWorld);
         const Material &ma = other.materials[a.material], &mb = scene.materials[b.material];
         EXPECT_EQ(ma.name, mb.name);
-        for (const TextureSlot slot : kTextureSlots) {
-            ASSERT_EQ(textureAt(ma, slot) == kNoTexture, textureAt(mb, slot) == kNoTexture);
-            if (textureAt(ma, slot) == kNoTexture) continue;
-            EXPECT_EQ(textureAt(mb, slot), textureAt(ma, slot) + 3);
-            EXPECT_EQ(scene.textures[static_cast<size_t>(textureAt(mb, slot))].name,
-                      other.textures[static_cast<size_t>(textureAt(ma, slot))].name);
+        const auto before = textureSlots(ma), after = textureSlots(mb);
+        for (size_t slot = 0; slot < before.size(); ++slot) {
+            ASSERT_EQ(*before[slot] == kNoTexture, *after[slot] == kNoTexture);
+            if (*before[slot] == kNoTexture) continue;
+            EXPECT_EQ(*after[slot], *before[slot] + 3);
+            EXPECT_EQ(scene.textures[static_cast<size_t>(*after[slot])].name,
+                      other.textures[static_cast<size_t>(*before[slot])].name);
         }
     }
+    EXPECT_EQ(scene.instances[5].endToWorld, placement * *other.instances[0].endToWorld);
     EXPECT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(scene.cameras[1].position, other.cameras[0].position + glm::vec3(0.0f, 50.0f, 0.0f));
     EXPECT_EQ(scene.lights.size(), 6u);

@@ -46,8 +46,18 @@ vec4 bothWays(uint i) {
     return vec4(evalBsdf(seenFrom(a), a, b, pdf).xy / b.y, evalBsdf(seenFrom(b), b, a, pdf).xy / a.y);
 }
 
+// Light, not radiance: a boundary's scale by the square of the index is taken back.
+vec4 left(uint i) {
+    Surface s = seenFrom(push.wo);
+    BsdfSample drawn = sampleBsdf(s, push.wo, numbers(i, 0u).x, numbers(i, 1u));
+    return vec4(drawn.weight * (drawn.transmitted && !s.thin ? s.eta * s.eta : 1.0), drawn.pdf);
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
-    result[i] = push.mode == kBsdfSample ? sampled(i) : push.mode == kBsdfGrid ? onGrid(i) : bothWays(i);
+    if (push.mode == kBsdfSample) result[i] = sampled(i);
+    if (push.mode == kBsdfGrid) result[i] = onGrid(i);
+    if (push.mode == kBsdfBothWays) result[i] = bothWays(i);
+    if (push.mode == kBsdfAlbedo) result[i] = left(i);
 }

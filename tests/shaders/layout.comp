@@ -13,6 +13,7 @@ layout(set = 0, binding = kBindHits, std430) readonly buffer HitBlock { HitData 
 layout(set = 0, binding = kBindCounts, std430) readonly buffer CountBlock { RayCounts counts; };
 layout(set = 0, binding = 49, std430) readonly buffer TraceQuadricBlock { TraceQuadric traceQuadric; };
 layout(set = 0, binding = 50, std430) readonly buffer QuadricBlock { QuadricData quadric; };
+layout(set = 0, binding = 52, std430) readonly buffer MotionBlock { MotionData motion; };
 layout(set = 0, binding = 40, std430) readonly buffer RaysPushBlock { RaysPush raysPush; };
 layout(set = 0, binding = 41, std430) readonly buffer TraceTriangleBlock { TraceTriangle traceTriangle; };
 layout(set = 0, binding = 42, std430) readonly buffer TraceInstanceBlock { TraceInstance traceInstance; };
@@ -80,7 +81,7 @@ void emitFrame() {
     emit(frame.lightGridOrigin);
     emit(frame.sunDiscCount);
     emit(frame.lightGridStep);
-    emit(frame.padding0);
+    emit(frame.inverseThroughputEnd);
     emit(frame.endPosition);
     emit(frame.padding1);
     emit(frame.endRight);
@@ -169,6 +170,9 @@ void emitGeometry() {
     emit(instance.material);
     emit(instance.flags);
     emit(instance.firstTrail);
+    emit(motion.endToWorld0);
+    emit(motion.endToWorld1);
+    emit(motion.endToWorld2);
     emit(triangle.v0);
     emit(triangle.v1);
     emit(triangle.v2);
@@ -216,6 +220,17 @@ void emitMaterials() {
     emit(lobes.tangentCos);
     emit(lobes.tangentSin);
     emit(lobes.priority);
+    LobeTextureData textures = loadLobeTextures(1u);
+    emit(textures.clearcoat);
+    emit(textures.clearcoatRoughness);
+    emit(textures.clearcoatNormal);
+    emit(textures.clearcoatNormalScale);
+    emit(textures.sheenColor);
+    emit(textures.sheenRoughness);
+    emit(textures.anisotropy);
+    emit(textures.specular);
+    emit(textures.specularColor);
+    emit(textures.transmission);
     PhongData phong = loadPhong(1u);
     emit(phong.diffuse);
     emit(phong.exponent);

@@ -4,6 +4,7 @@
 // counts where they fall.
 #include "lib/environment.glsl"
 #include "lib/filter.glsl"
+#include "lib/light_shapes.glsl"
 #include "lib/sampler.glsl"
 #include "materials/ggx.glsl"
 #include "routines.h"
@@ -12,6 +13,18 @@ layout(local_size_x = kWorkgroupSize) in;
 layout(constant_id = kSpecRoutine) const uint kRoutine = kRoutinePair;
 layout(push_constant) uniform PushBlock { SamplesPush push; };
 layout(set = 0, binding = kBindHits, std430) writeonly buffer ResultBlock { vec4 result[]; };
+
+// Of a rectangle 1 wide along x and `alpha` high along y, from the origin on, that shines along z; seen from `wo`.
+vec4 drawRectangle(vec2 u) {
+    PunctualData light;
+    light.kind = kPunctualRectangle;
+    light.position = vec3(0.0);
+    light.direction = vec3(1.0, 0.0, 0.0);
+    light.shape = vec3(0.0, push.alpha, 0.0);
+    ShapePoint at = sampleShape(light, push.wo, u);
+    ShapePoint met = hitShape(light, Ray(push.wo, 0.0, at.direction, kInfinity, 0u));
+    return vec4((push.wo + at.distance * at.direction).xy, at.pdf, met.pdf);
+}
 
 vec4 draw(vec2 u, vec2 v) {
     float pdf = 0.0;
@@ -23,6 +36,7 @@ vec4 draw(vec2 u, vec2 v) {
     if (kRoutine == kRoutineTriangle) return vec4(sampleTriangle(u), 0.0, 0.0);
     if (kRoutine == kRoutineDisc) return vec4(sampleDisc(u), 0.0, 0.0);
     if (kRoutine == kRoutineFilter) return vec4(sampleFilter(u), 0.0, 0.0);
+    if (kRoutine == kRoutineRectangle) return drawRectangle(u);
     if (kRoutine == kRoutineEnvironment) {
         vec3 direction = sampleEnvironment(u, v);
         environmentRadiance(direction, pdf);

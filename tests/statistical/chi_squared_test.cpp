@@ -18,7 +18,7 @@ namespace {
 using ChiSquared = GpuTest;
 
 /// Number of calls of expectFits in this file; each test may then fail at random with probability .01 over all (Sidak).
-constexpr double kTests = 25.0;
+constexpr double kTests = 29.0;
 
 constexpr int kColumns = 32, kRows = 16;
 
@@ -203,6 +203,49 @@ TEST_F(ChiSquared, EnvironmentMap) {
                           std::acos(std::clamp(static_cast<double>(s.y), -1.0, 1.0)) / kPi);
     };
     expectFits(countBins(drawSamples(device_, config), place), bins, "environment map");
+}
+
+/// Solid angle of the rectangle between the origin's foot and (x, y), at height h: its closed form, signed by x and y.
+double cornerAngle(double x, double y, double h) { return std::atan(x * y / (h * std::sqrt(x * x + y * y + h * h))); }
+
+double rectangleAngle(glm::dvec2 low, glm::dvec2 high, double h) {
+    return cornerAngle(high.x, high.y, h) - cornerAngle(low.x, high.y, h) - cornerAngle(high.x, low.y, h) +
+           cornerAngle(low.x, low.y, h);
+}
+
+/// Each part of a rectangle lamp gets samples by its solid angle, wherever it is seen from: closely over its middle and
+/// beyond an edge, from nearly within its plane, from afar. Far away the area serves, and the density is that of a point.
+TEST_F(ChiSquared, RectangleBySolidAngle) {
+    const glm::vec3 receivers[] = {{0.4f, 0.3f, 0.2f}, {-1.0f, 0.1f, 0.7f}, {1.2f, -0.3f, 0.05f}, {3.0f, 4.0f, 5.0f}};
+    for (const glm::vec3 receiver : receivers) {
+        DrawConfig config;
+        config.routine = shared::kRoutineRectangle;
+        config.wo = receiver;
+        config.alpha = 0.6f;
+        const std::vector<glm::vec4> samples = drawSamples(device_, config);
+        const double h = static_cast<double>(receiver.z);
+        const glm::dvec2 size(1.0, static_cast<double>(config.alpha)), foot(receiver);
+        const double whole = rectangleAngle(-foot, size - foot, h);
+        std::vector<double> bins;
+        for (int y = 0; y < kRows; ++y)
+            for (int x = 0; x < kColumns; ++x) {
+                const glm::dvec2 low = size * glm::dvec2(x, y) / glm::dvec2(kColumns, kRows) - foot;
+                bins.push_back(rectangleAngle(low, low + size / glm::dvec2(kColumns, kRows), h) / whole);
+            }
+        const bool byArea = whole < 0.01;
+        // A point some units away is rounded: a little towards the middle.
+        const auto place = [&](glm::vec4 s) { return 0.5 + (glm::dvec2(s.x, s.y) / size - 0.5) * (1.0 - 1e-5); };
+        char what[64];
+        std::snprintf(what, sizeof(what), "rectangle of %.5f sr", whole);
+        expectFits(countBins(samples, place), byArea ? uniformBins() : bins, what);
+        for (size_t i = 0; i < samples.size(); i += 1000) {
+            const glm::dvec2 to = glm::dvec2(samples[i].x, samples[i].y) - foot;
+            const double r2 = glm::dot(to, to) + h * h;
+            const double density = byArea ? r2 * std::sqrt(r2) / (h * size.x * size.y) : 1.0 / whole;
+            EXPECT_NEAR(static_cast<double>(samples[i].z), density, 2e-4 * density) << what;
+            EXPECT_NEAR(static_cast<double>(samples[i].w), density, 2e-4 * density) << what;
+        }
+    }
 }
 
 }  // namespace

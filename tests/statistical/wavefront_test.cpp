@@ -156,6 +156,20 @@ TEST_F(WavefrontTest, PathsOutlastTheRounds) {
     expectAsOneKernel(scene, settings, "one");
 }
 
+/// Every kernel sees a path's own moment: that which traces, that which shades, and that which follows paths to their end.
+TEST_F(WavefrontTest, PathsKeepTheirMoment) {
+    Scene scene = fencedScene();
+    for (const size_t moved : {1u, 4u})
+        scene.instances[moved].endToWorld =
+            glm::rotate(glm::translate(scene.instances[moved].objectToWorld, {0.4f, 0.1f, 0.3f}), 0.7f, glm::vec3(0, 1, 0));
+    addMesh(scene, box(addMaterial(scene, lambert(0.95f)), {-4.0f, -0.1f, -4.0f}, {4.0f, 3.0f, 4.0f}));
+    RenderSettings settings = oddImage();
+    expectAsOneKernel(scene, settings, "what moves");
+    settings.depth = shared::kMostRounds + 4;
+    settings.rouletteDepth = 1000;
+    expectAsOneKernel(scene, settings, "what moves, beyond the rounds");
+}
+
 TEST_F(WavefrontTest, SlicesDoNotShow) {
     RenderSettings settings = oddImage();
     settings.width = 168;  // more pixels than the queues hold

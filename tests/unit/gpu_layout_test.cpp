@@ -49,11 +49,14 @@ struct Structs {
     shared::TraceInstance traceInstance;
     shared::TraceQuadric traceQuadric;
     std::array<shared::InstanceData, 2> instances{};  ///< the second is read, lest a stride of 0 go unseen
+    shared::MotionData motion;
+    std::array<shared::MotionData, 2> still{};  ///< which the instance's flags may have the kernel read
     shared::TriangleData triangle;
     shared::VertexData vertex;
     shared::QuadricData quadric;
     std::array<shared::MaterialData, 2> materials{};
     std::array<shared::LobeData, 2> lobes{};
+    std::array<shared::LobeTextureData, 2> lobeTextures{};
     std::array<shared::PhongData, 2> phong{};
     shared::TextureData texture;
     shared::EmissiveData emissive;
@@ -69,7 +72,7 @@ void numberFrame(Numbering& n, shared::FrameParams& f) {
     n.assign(f.emissiveTotal, f.environmentConstant, f.sceneDiagonal, f.gridOrigin, f.root, f.gridStep, f.hasUpperTree);
     n.assign(f.sampleCount, f.strataWidth, f.filterRadius, f.lensRadius, f.focusDistance, f.clampRadiance);
     n.assign(f.mirrorAlpha, f.aoDistance, f.aoRays, f.aoShare, f.shapedCount, f.shutter, f.lightGridOrigin, f.sunDiscCount);
-    n.assign(f.lightGridStep, f.padding0, f.endPosition, f.padding1, f.endRight, f.padding2, f.endUp, f.padding3);
+    n.assign(f.lightGridStep, f.inverseThroughputEnd, f.endPosition, f.padding1, f.endRight, f.padding2, f.endUp, f.padding3);
     n.assign(f.endForward, f.padding4, f.ambient, f.threshold);
 }
 
@@ -92,21 +95,24 @@ void numberTraversal(Numbering& n, shared::TraceTriangle& t, shared::TraceInstan
     n.assign(q.isEllipsoid, q.padding0, q.padding1);
 }
 
-void numberGeometry(Numbering& n, shared::InstanceData& i, shared::TriangleData& t, shared::VertexData& v,
+void numberGeometry(Numbering& n, shared::InstanceData& i, shared::MotionData& m, shared::TriangleData& t, shared::VertexData& v,
                     shared::QuadricData& q) {
     n.assign(i.objectToWorld0, i.objectToWorld1, i.objectToWorld2, i.firstPrimitive, i.material, i.flags, i.firstTrail);
+    n.assign(m.endToWorld0, m.endToWorld1, m.endToWorld2);
     n.assign(t.v0, t.v1, t.v2, t.padding);
     n.assign(v.position, v.normal, v.u, v.v, v.tangent, v.padding);
     n.assign(q.radii, q.zz, q.z, q.constant, q.height, q.isEllipsoid);
 }
 
-void numberMaterials(Numbering& n, shared::MaterialData& m, shared::LobeData& l, shared::PhongData& p,
-                     shared::TextureData& t) {
+void numberMaterials(Numbering& n, shared::MaterialData& m, shared::LobeData& l, shared::LobeTextureData& x,
+                     shared::PhongData& p, shared::TextureData& t) {
     n.assign(m.baseColor, m.alpha, m.emission, m.alphaCutoff, m.metallic, m.roughness, m.transmission, m.ior);
     n.assign(m.specular, m.normalScale, m.emissionWeight, m.flags, m.baseColorTexture, m.metallicRoughnessTexture);
     n.assign(m.normalTexture, m.emissionTexture);
     n.assign(l.specularColor, l.clearcoat, l.sheenColor, l.sheenRoughness, l.absorption, l.clearcoatAlpha);
     n.assign(l.anisotropy, l.tangentCos, l.tangentSin, l.priority);
+    n.assign(x.clearcoat, x.clearcoatRoughness, x.clearcoatNormal, x.clearcoatNormalScale, x.sheenColor);
+    n.assign(x.sheenRoughness, x.anisotropy, x.specular, x.specularColor, x.transmission);
     n.assign(p.diffuse, p.exponent, p.specular, p.reflection, p.mirror, p.ior, p.tint, p.isGiven);
     n.assign(t.firstTexel, t.width, t.height, t.flags);
 }
@@ -127,8 +133,8 @@ std::vector<uint32_t> numberAll(Structs& s) {
     numberFrame(numbering, s.frame);
     numberBuffers(numbering, s);
     numberTraversal(numbering, s.traceTriangle, s.traceInstance, s.traceQuadric);
-    numberGeometry(numbering, s.instances[1], s.triangle, s.vertex, s.quadric);
-    numberMaterials(numbering, s.materials[1], s.lobes[1], s.phong[1], s.texture);
+    numberGeometry(numbering, s.instances[1], s.motion, s.triangle, s.vertex, s.quadric);
+    numberMaterials(numbering, s.materials[1], s.lobes[1], s.lobeTextures[1], s.phong[1], s.texture);
     numberLights(numbering, s.emissive, s.lightNodes[1], s.punctual);
     numberWavefront(numbering, s.wavefrontPush);
     return numbering.bits();
@@ -197,10 +203,13 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.buffer(49, s.traceQuadric);
     inputs.buffer(50, s.quadric);
     inputs.buffer(51, s.wavefrontPush);
+    inputs.buffer(52, s.motion);
     inputs.buffer(48, result);
     inputs.texels(shared::kBindInstances, s.instances);
+    inputs.texels(shared::kBindMotion, s.still);
     inputs.texels(shared::kBindMaterials, s.materials);
     inputs.texels(shared::kBindLobes, s.lobes);
+    inputs.texels(shared::kBindLobeTextures, s.lobeTextures);
     inputs.texels(shared::kBindPhong, s.phong);
     inputs.texels(shared::kBindLightNodes, s.lightNodes);
     const KernelLayout layout = inputs.bind(sizeof(shared::RenderPush));

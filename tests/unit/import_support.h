@@ -15,6 +15,7 @@
 
 #include "engine/core/error.h"
 #include "engine/scene/import.h"
+#include "engine/scene/texture_slots.h"
 #include "tests/support/paths.h"
 
 /// Scene files written by hand, and the scenes that others made.
@@ -167,9 +168,7 @@ inline void expectSound(const Scene& scene) {
     }
     const auto textureCount = static_cast<int32_t>(scene.textures.size());
     for (const Material& material : scene.materials)
-        for (const int32_t texture : {material.baseColorTexture, material.metallicRoughnessTexture,
-                                      material.normalTexture, material.emissionTexture})
-            ASSERT_LT(texture, textureCount) << material.name;
+        for (const int32_t* const texture : textureSlots(material)) ASSERT_LT(*texture, textureCount) << material.name;
     for (const Instance& instance : scene.instances) ASSERT_LT(instance.mesh, scene.meshes.size());
 }
 

@@ -47,6 +47,8 @@ inline void expectSame(const Material& a, const Material& b) {
                                   m.anisotropy,         m.anisotropyRotationRadians, m.attenuationDistance};
     };
     expectSameBits(lobes(a), lobes(b), a.name + " specular colour, sheen colour, attenuation, coat, sheen, anisotropy...");
+    expectSameBits(a.lobeTextures, b.lobeTextures, a.name + " textures of lobes");
+    expectSameBits(a.thickness, b.thickness, a.name + " thickness");
     EXPECT_EQ(a.priority, b.priority) << a.name;
     EXPECT_EQ(a.baseColorTexture, b.baseColorTexture) << a.name;
     EXPECT_EQ(a.metallicRoughnessTexture, b.metallicRoughnessTexture) << a.name;
@@ -74,6 +76,8 @@ inline void expectSame(const Instance& a, const Instance& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.mesh, b.mesh) << a.name;
     expectSameBits(a.objectToWorld, b.objectToWorld, a.name + " objectToWorld");
+    ASSERT_EQ(a.endToWorld.has_value(), b.endToWorld.has_value()) << a.name;
+    if (a.endToWorld) expectSameBits(*a.endToWorld, *b.endToWorld, a.name + " endToWorld");
 }
 
 inline void expectSame(const Camera& a, const Camera& b) {

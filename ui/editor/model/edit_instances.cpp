@@ -79,9 +79,13 @@ Edit placeInstances(std::vector<Placement> placements, const std::string& verb, 
     const auto change = [placements = std::move(placements)](EditState& state) {
         for (const Placement& placement : placements) {
             requirePlaceable(placement, state.scene);
-            glm::mat4& matrix = state.scene.instances[placement.instance].objectToWorld;
+            Instance& instance = state.scene.instances[placement.instance];
+            const glm::mat4 before = instance.objectToWorld;
+            glm::mat4& matrix = instance.objectToWorld;
             matrix = placement.objectToWorld;
             for (int c = 0; c < 3; ++c) matrix[c][3] = 0.0f;  // not -0, which no file keeps
+            // The motion goes along.
+            if (instance.endToWorld) instance.endToWorld = matrix * glm::inverse(before) * *instance.endToWorld;
         }
     };
     return {name, change, std::move(mergeKey)};

@@ -31,6 +31,7 @@ constexpr std::array kSettingKinds = {
     SettingKind{"seed", kEditKernel},
     SettingKind{"depth", kEditKernel},
     SettingKind{"roulette-depth", kEditKernel},
+    SettingKind{"throughput-end", kEditKernel},
     SettingKind{"shutter", kEditKernel},
     SettingKind{"energy", kEditKernel},
     SettingKind{"offset", kEditKernel},
@@ -88,7 +89,9 @@ uint32_t instanceKinds(const Splice<Instance>& splice) {
     uint32_t kinds = kEditNothing;
     for (size_t i = 0; i < splice.before.size(); ++i) {
         if (splice.before[i].mesh != splice.after[i].mesh) return kEditGeometry;
-        if (splice.before[i].objectToWorld != splice.after[i].objectToWorld) kinds = kEditTransforms;
+        if (splice.before[i].objectToWorld != splice.after[i].objectToWorld ||
+            splice.before[i].endToWorld != splice.after[i].endToWorld)
+            kinds = kEditTransforms;
     }
     return kinds;
 }

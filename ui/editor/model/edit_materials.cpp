@@ -118,7 +118,7 @@ int32_t textureAt(const Material& material, TextureSlot slot) {
 bool isColorSlot(TextureSlot slot) { return slot == TextureSlot::baseColor || slot == TextureSlot::emission; }
 
 void supplyTangents(Scene& scene, uint32_t material) {
-    if (scene.materials[material].normalTexture == kNoTexture) return;
+    if (!wantsTangents(scene.materials[material])) return;
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = std::as_const(scene.meshes)[m];
         if (mesh.material == material && mesh.tangents.empty() && mesh.quadrics.empty())

@@ -37,7 +37,7 @@ bool isColorSlot(TextureSlot slot);
 /// that is. Meshes get the tangents that a normal map asks for.
 Edit setTexture(uint32_t material, TextureSlot slot, int32_t texture);
 
-/// Gives the meshes that wear the material the tangents that its normal map asks for.
+/// Gives the meshes that wear the material tangents, where these change what it looks like.
 void supplyTangents(Scene& scene, uint32_t material);
 
 /// Reads an image into the slot. Throws Error, before there is an edit, where it cannot be read.

@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "engine/scene/texture_slots.h"
 #include "ui/editor/model/edit_instances.h"
-#include "ui/editor/model/edit_materials.h"
 
 namespace raylab::editor {
 namespace {
@@ -17,8 +17,8 @@ void appendMaterials(const Scene& other, Scene& scene) {
     const auto firstTexture = static_cast<int32_t>(scene.textures.size());
     for (const Shared<Texture>& texture : other.textures.shared()) scene.textures.shared().push_back(texture);
     for (Material material : other.materials) {
-        for (const TextureSlot slot : kTextureSlots)
-            if (int32_t& texture = textureAt(material, slot); texture != kNoTexture) texture += firstTexture;
+        for (int32_t* const texture : textureSlots(material))
+            if (*texture != kNoTexture) *texture += firstTexture;
         scene.materials.push_back(std::move(material));
     }
 }
@@ -61,6 +61,7 @@ void merge(const Scene& other, const glm::mat4& placement, EditState& state) {
     for (Instance instance : other.instances) {
         instance.mesh += firstMesh;
         instance.objectToWorld = placement * instance.objectToWorld;
+        if (instance.endToWorld) instance.endToWorld = placement * *instance.endToWorld;
         state.selection.instances.push_back(insertInstance(state, std::move(instance)));
     }
     appendViewsAndLights(other, placement, scene);
