@@ -40,22 +40,34 @@ fs::path temporaryBeside(const fs::path& path) {
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
+/// A device or a pipe, as /dev/null is: what a renamed file would take the place of for good.
+bool isSpecial(const fs::path& path) {
+    std::error_code code;
+    return fs::exists(path, code) && !fs::is_regular_file(path, code) && !fs::is_directory(path, code);
+}
+
+[[noreturn]] void refuseToWrite(const fs::path& path, const std::string& why) {
+    throw Error(path.string() + ": cannot be written (" + why + "); choose another folder with -o");
+}
+
 }  // namespace
 
 void requireWritable(const fs::path& path) {
     std::error_code code;
     if (path.filename().empty() || fs::is_directory(path, code))
         throw Error(path.string() + ": is a folder; name a file to write");
+    if (isSpecial(path)) return;
     fs::create_directories(folderOf(path), code);
+    if (code) refuseToWrite(path, code.message());
     const fs::path probe = temporaryBeside(path);
     std::ofstream stream(probe, std::ios::binary);
-    if (!stream)
-        throw Error(path.string() + ": cannot be written (" + std::strerror(errno) + "); choose another folder with -o");
+    if (!stream) refuseToWrite(path, std::strerror(errno));
     stream.close();
     fs::remove(probe, code);
 }
 
 void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    if (isSpecial(path)) return write(path);
     std::error_code code;
     fs::create_directories(folderOf(path), code);
     const fs::path temporary = temporaryBeside(path);

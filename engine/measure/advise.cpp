@@ -16,6 +16,8 @@ namespace {
 constexpr double kProbeSeconds = 0.25;
 constexpr uint32_t kMostProbeSamples = 256;
 constexpr int kProbeSeeds = 4;
+/// That a step takes at most: a first look, and the probes.
+constexpr uint32_t kSeedsOfStep = 1 + kProbeSeeds;
 /// A gain that is less is not worth an unusual setting.
 constexpr double kWorthwhile = 1.03;
 /// Samples of the second measurement of a forecast, over those it forecasts.
@@ -56,11 +58,16 @@ std::vector<std::string> valuesOf(const Coordinate& coordinate, const RenderSett
 class Search {
 public:
     Search(Device& device, const Scene& scene, const Reference& reference, const AdviceGoal& goal,
-           const std::function<bool()>& stop)
-        : device_(device), scene_(scene), reference_(reference), goal_(goal), stop_(stop) {}
+           const std::function<bool()>& stop, size_t stepsBefore)
+        : device_(device),
+          scene_(scene),
+          reference_(reference),
+          goal_(goal),
+          stop_(stop),
+          nextSeed_(1 + kSeedsOfStep * static_cast<uint32_t>(stepsBefore)) {}
 
-    /// Of the values of a coordinate; false where it was stopped. `held` gets the chosen value.
-    bool tryCoordinate(const Coordinate& coordinate, RenderSettings& held, Advice& advice);
+    /// Of the values of a coordinate; false where it was stopped. `held` gets the chosen value, `steps` what was found.
+    bool tryCoordinate(const Coordinate& coordinate, RenderSettings& held, std::vector<AdviceStep>& steps);
     std::optional<Forecast> forecast(const RenderSettings& settings);
     std::optional<Achieved> run(const RenderSettings& settings);
 
@@ -83,7 +90,7 @@ private:
     const Reference& reference_;
     AdviceGoal goal_;
     const std::function<bool()>& stop_;
-    uint32_t nextSeed_ = 1;
+    uint32_t nextSeed_;
     double sampleSeconds_ = 0.0;  ///< of the held settings
 };
 
@@ -120,7 +127,7 @@ size_t choose(const std::vector<AdviceOption>& options, const std::vector<Probe>
     return best;
 }
 
-bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, Advice& advice) {
+bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, std::vector<AdviceStep>& steps) {
     const std::vector<std::string> values = valuesOf(coordinate, held, device_);
     if (values.size() < 2) return true;
     const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), coordinate.setting);
@@ -141,7 +148,7 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, A
     step.chosen = values[best];
     held = candidates[best];
     sampleSeconds_ = (*probes)[best].medianSampleSeconds();
-    advice.steps.push_back(std::move(step));
+    steps.push_back(std::move(step));
     return true;
 }
 
@@ -197,34 +204,32 @@ std::vector<std::string> adviceSettings() {
     return names;
 }
 
-std::optional<Advice> advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
-                             const AdviceGoal& goal, const std::function<bool()>& stop,
-                             const AdviceProgress& progress) {
-    Search search(device, scene, reference, goal, stop);
-    Advice advice;
-    RenderSettings held = base;
+bool advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
+            const AdviceGoal& goal, const std::function<bool()>& stop, const AdviceProgress& progress, Advice& advice) {
+    Search search(device, scene, reference, goal, stop, advice.steps.size());
+    if (advice.steps.empty()) advice.settings = base;
     for (const Coordinate& coordinate : coordinates()) {
         if (!goal.only.empty() && std::ranges::count(goal.only, coordinate.setting) == 0) continue;
+        if (std::ranges::count(advice.steps, coordinate.setting, &AdviceStep::setting) > 0) continue;
         progress(coordinate.setting);
-        if (!search.tryCoordinate(coordinate, held, advice)) return std::nullopt;
+        if (!search.tryCoordinate(coordinate, advice.settings, advice.steps)) return false;
     }
     progress("forecast");
-    const std::optional<Forecast> forecast = search.forecast(held);
-    if (!forecast) return std::nullopt;
+    const std::optional<Forecast> forecast = search.forecast(advice.settings);
+    if (!forecast) return false;
     if (forecast->samples == 0)
         throw Error("nothing that was tried reaches a relative error of " + std::to_string(goal.relativeError) +
                     "; the least bias found is " + std::to_string(forecast->relativeBias) + ": ask for a larger error");
     const std::optional<Forecast> standard = search.forecast(base);
-    if (!standard) return std::nullopt;
-    held.spp = forecast->samples;
+    if (!standard) return false;
+    advice.settings.spp = forecast->samples;
     progress("verification");
-    const std::optional<Achieved> achieved = search.run(held);
-    if (!achieved) return std::nullopt;
-    advice.settings = held;
+    const std::optional<Achieved> achieved = search.run(advice.settings);
+    if (!achieved) return false;
     advice.forecast = *forecast;
     advice.standard = *standard;
     advice.achieved = *achieved;
-    return advice;
+    return true;
 }
 
 }  // namespace raylab

@@ -64,10 +64,11 @@ using AdviceProgress = std::function<void(const std::string& what)>;
 
 /// Finds the settings that reach the goal soonest on this scene and device by coordinate search: depth, integrator,
 /// choice of lights, sampler, roulette, tracer, layout and builder in turn, each value measured beside the one that is
-/// held. Then forecasts, and runs once to see whether that was right. Nothing where `stop` says so. Throws Error where
-/// nothing that was tried reaches the error. `base` must be resolved for the device; the scene's environment must not
-/// be settled.
-std::optional<Advice> advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
-                             const AdviceGoal& goal, const std::function<bool()>& stop, const AdviceProgress& progress);
+/// held. Then forecasts, and runs once to see whether that was right. `advice` follows each step, and a search goes on
+/// from the steps that it holds: after a loss of the device, on another one. False where `stop` says so. Throws Error
+/// where nothing that was tried reaches the error. `base` must be resolved for the device; the scene's environment must
+/// not be settled.
+bool advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
+            const AdviceGoal& goal, const std::function<bool()>& stop, const AdviceProgress& progress, Advice& advice);
 
 }  // namespace raylab

@@ -31,10 +31,10 @@ constexpr int kMostRounds = 6;
 constexpr int kVersion = 1;
 
 /// Shortcuts, and what only other methods know: path tracing without shortcuts has them at their defaults.
-constexpr std::array<std::string_view, 17> kShortcuts = {
-    "depth",     "integrator",  "fresnel",     "geometry",   "alpha-mapping",   "shadows",
-    "ambient",   "attenuation", "highlight",   "reflection", "threshold",       "beyond",
-    "antialias", "ao-rays",     "ao-distance", "clamp",      "mirror-roughness"};
+constexpr std::array<std::string_view, 20> kShortcuts = {
+    "depth",       "integrator", "fresnel",          "geometry",  "alpha-mapping",  "shadows",   "ambient",
+    "attenuation", "highlight",  "reflection",       "threshold", "beyond",         "antialias", "ao-rays",
+    "ao-distance", "clamp",      "mirror-roughness", "offset",    "offset-epsilon", "slab"};
 
 bool isShortcut(std::string_view name) { return std::ranges::find(kShortcuts, name) != kShortcuts.end(); }
 

@@ -98,6 +98,27 @@ TEST_F(Chart, ReferenceAndConfigurationsMayBeFiles) {
     expectProgramRefuses("chart cornell --width 8 --height 8 -o d --reference reference.exr", "has 24 x 24 pixels");
 }
 
+TEST_F(Chart, ComparesWhatRoundingsCost) {
+    ASSERT_EQ(runProgram("chart " + kSmall + " -o c --set-of precision --seeds 2 --points 1 --reference-error 0.3 --quiet"),
+              0)
+        << text("err");
+    const Json curves = json("c/chart.json")["curves"];
+    ASSERT_EQ(curves.size(), 6u);
+    for (const Json& curve : curves) {
+        EXPECT_EQ(curve["groups"].size(), 1u);
+        EXPECT_EQ(curve["reference"]["from"], curves[0]["reference"]["from"]) << "shortcuts are measured as bias";
+    }
+    EXPECT_EQ(curves[5]["config"], "offset=epsilon slab=plain triangle=minimal");
+    EXPECT_EQ(curves[5]["settings"]["slab"], "plain");
+}
+
+TEST_F(Chart, SaysWhatASetWaitsFor) {
+    expectProgramRefuses("chart cornell -o d --set-of colours", "--set-of");
+    ASSERT_EQ(runProgram("render --help"), 0);
+    if (text("out").find("--denoise ") == std::string::npos)
+        expectProgramRefuses("chart cornell -o d --set-of denoise", "there is no setting 'denoise' in this raylab yet");
+}
+
 /// Of the layer at pixel 0.
 float valueOf(const std::filesystem::path& path, const std::string& name) {
     for (const Layer& layer : readExrLayers(path))

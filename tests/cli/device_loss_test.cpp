@@ -1,3 +1,6 @@
+#include <map>
+#include <sstream>
+
 #include "engine/image/image_io.h"
 #include "tests/cli/program.h"
 
@@ -83,6 +86,107 @@ TEST_F(DeviceLoss, OfAMeasurementIsNoResult) {
     const Simulated simulated("device-lost@rays:2");
     EXPECT_EQ(runProgram("compare-tracers cornell --a software --b query --rays 10000 --quiet"), 3) << text("err");
     EXPECT_NE(text("err").find("VK_ERROR_DEVICE_LOST"), std::string::npos) << text("err");
+}
+
+/// The table of a chart without its times and what follows from them.
+std::map<std::string, std::vector<std::string>> pointsOf(const std::string& csv) {
+    std::map<std::string, std::vector<std::string>> points;
+    std::istringstream stream(csv);
+    for (std::string line; std::getline(stream, line);) {
+        std::vector<std::string> fields;
+        std::istringstream fieldStream(line);
+        for (std::string field; std::getline(fieldStream, field, ',');) fields.push_back(field);
+        points[fields.at(0) + " " + fields.at(1) + " " + fields.at(2)] = {fields.at(5), fields.at(6), fields.at(7)};
+    }
+    return points;
+}
+
+const std::string kSmallChart =
+    "chart cornell --width 24 --height 24 --depth 2 --vary sampler=sobol,independent --seeds 2 --points 3 --reference "
+    "reference.exr --quiet -o ";
+
+class ChartLoss : public DeviceLoss {
+protected:
+    void SetUp() override {
+        DeviceLoss::SetUp();
+        ASSERT_EQ(runProgram("render cornell --width 24 --height 24 --depth 2 --spp 16 --quiet -o reference.exr"), 0);
+        ASSERT_EQ(runProgram(kSmallChart + "calm"), 0) << text("err");
+    }
+    void expectSamePoints(const std::string& folder) const {
+        EXPECT_EQ(pointsOf(text(folder + "/chart.csv")), pointsOf(text("calm/chart.csv")));
+    }
+};
+
+TEST_F(ChartLoss, GoesOnFromItsPointsOnAFreshDevice) {
+    const Simulated simulated("device-lost@render:40");
+    ASSERT_EQ(runProgram(kSmallChart + "lost"), 0) << text("err");
+    EXPECT_NE(text("err").find("points are kept; the chart goes on"), std::string::npos) << text("err");
+    expectSamePoints("lost");
+}
+
+TEST_F(ChartLoss, ForGoodKeepsItsPointsForTheSameCommand) {
+    {
+        const Simulated simulated("device-lost@render:40,device-lost@render:1");
+        EXPECT_EQ(runProgram(kSmallChart + "lost"), 3) << text("err");
+        EXPECT_NE(text("err").find("the same command goes on from there"), std::string::npos) << text("err");
+        EXPECT_NE(json("lost/chart.json")["deviceLoss"].get<std::string>().find("VK_ERROR_DEVICE_LOST"),
+                  std::string::npos);
+        EXPECT_GT(pointsOf(text("lost/chart.csv")).size(), 1u);
+        EXPECT_LT(pointsOf(text("lost/chart.csv")).size(), pointsOf(text("calm/chart.csv")).size());
+    }
+    // A device that gives up on long dispatches may do with shorter ones.
+    ASSERT_EQ(runProgram(kSmallChart + "lost --slice-ms 10"), 0) << text("err");
+    expectSamePoints("lost");
+}
+
+const std::string kSmallAdvice =
+    "advise cornell --width 16 --height 16 --depth 2 --target-error 0.5 --only roulette-depth -o p.json --json a.json "
+    "--quiet";
+
+TEST_F(DeviceLoss, OfASearchGoesOnOnAFreshDevice) {
+    const Simulated simulated("device-lost@render:40");
+    ASSERT_EQ(runProgram(kSmallAdvice), 0) << text("err");
+    EXPECT_NE(text("err").find("the search goes on from there"), std::string::npos) << text("err");
+    ASSERT_EQ(json("a.json")["steps"].size(), 1u);
+    EXPECT_GE(json("a.json")["forecast"]["samples"].get<int>(), 1);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "p.json"));
+}
+
+TEST_F(DeviceLoss, OfASearchForGoodIsToldWithItsSteps) {
+    const Simulated simulated("device-lost@render:40,device-lost@render:1");
+    EXPECT_EQ(runProgram(kSmallAdvice), 3) << text("err");
+    EXPECT_NE(text("err").find("so there is no preset"), std::string::npos) << text("err");
+    EXPECT_NE(json("a.json")["deviceLoss"].get<std::string>().find("VK_ERROR_DEVICE_LOST"), std::string::npos);
+    EXPECT_TRUE(json("a.json")["steps"].empty());
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "p.json"));
+}
+
+TEST_F(DeviceLoss, FailsACaseOfStabilityAndNoOther) {
+    const Simulated simulated("device-lost@rays:2");
+    EXPECT_EQ(runProgram("stability --case S7,S9,S24 --quick --json a.json -o report"), 1) << text("err");
+    const Json result = json("a.json");
+    EXPECT_TRUE(result["complete"].get<bool>());
+    for (const Json& row : result["rows"]) {
+        if (row["id"] == "S7") {
+            EXPECT_EQ(row["pass"], false) << row;
+            EXPECT_NE(row["note"].get<std::string>().find("VK_ERROR_DEVICE_LOST"), std::string::npos) << row;
+        } else {
+            EXPECT_NE(row["pass"], false) << row;
+        }
+    }
+}
+
+TEST_F(DeviceLoss, KeepsTheRowsOfABenchmark) {
+    const std::string bench =
+        "bench cornell mirrors --width 16 --height 16 --repeats 1 --rays primary --no-peers --csv a.csv --json a.json";
+    ASSERT_EQ(runProgram(bench), 0) << text("err");
+    ASSERT_EQ(json("a.json")["rows"].size(), 2u);
+    const Simulated simulated("device-lost@rays:12");
+    EXPECT_EQ(runProgram(bench), 3) << text("err");
+    EXPECT_NE(text("err").find("is kept (rows: 1)"), std::string::npos) << text("err");
+    ASSERT_EQ(json("a.json")["rows"].size(), 1u);
+    EXPECT_EQ(json("a.json")["rows"][0]["scene"], "cornell");
+    EXPECT_NE(text("a.csv").find("\ncornell,"), std::string::npos);
 }
 
 TEST_F(DeviceLoss, IsSimulatedByAClearTextOnly) {

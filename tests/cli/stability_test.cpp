@@ -45,6 +45,15 @@ TEST_F(StabilityCommand, FailuresOfOtherChoicesAreShown) {
     EXPECT_EQ(readImage(folder_ / "report" / "S7-1.png").width, 256);
 }
 
+/// What is within its limit is shown too, where there is something to see.
+TEST_F(StabilityCommand, PlotsHowNumbersComeAbout) {
+    ASSERT_EQ(runProgram("stability --case S19,S33 --quick -o report"), 0) << text("err");
+    const std::string html = text("report/stability.html");
+    EXPECT_NE(html.find("<svg"), std::string::npos);
+    EXPECT_NE(html.find("a sum in float</text>"), std::string::npos);
+    EXPECT_NE(html.find(">alpha</text>"), std::string::npos);
+}
+
 TEST_F(StabilityCommand, WhatIsMissingIsARow) {
     std::filesystem::create_directory(folder_ / "none");
     ASSERT_EQ(runProgram("stability --case S3 --scenes none --json a.json"), 0) << text("err");

@@ -61,6 +61,22 @@ TEST_F(DriverTracers, RenderTheSameBitsAgain) {
             EXPECT_TRUE(number.passes()) << settings.tracer << ": " << number.what << " " << number.value;
 }
 
+/// S22: ours and the driver's have the same means.
+TEST_F(DriverTracers, AreAsBrightAsSoftware) {
+    const stability::Context context{.device = device_, .settings = {}, .quick = true};
+    for (const auto measure : {stability::measureAgainstQuery, stability::measureAgainstPipeline}) {
+        try {
+            const std::vector<stability::Number> numbers = measure(context);
+            ASSERT_EQ(numbers.size(), 2u);
+            std::printf("%s: %g; %s: %g\n", numbers[0].what.c_str(), numbers[0].value, numbers[1].what.c_str(),
+                        numbers[1].value);
+            EXPECT_TRUE(numbers[0].passes()) << numbers[0].what << " " << numbers[0].value;
+        } catch (const stability::Skipped& skipped) {
+            std::printf("not run: %s\n", skipped.what());
+        }
+    }
+}
+
 /// Rays that miss all edges.
 TEST_F(DriverTracers, DoNotLeakWithinTriangles) {
     const TestMesh mesh = ball(50, glm::vec3(0.0f));

@@ -136,52 +136,15 @@ TEST(AccelLayoutWalks, SphereAgreesWithOracle) {
     expectAgreement(mesh, randomRays({{9.0f, -21.0f, 4.0f}, {11.0f, -19.0f, 6.0f}}, 8000, 75), 1e-3, 2000);
 }
 
-/// Cubes on an integer grid, so that origins and directions can lie exactly in faces and along axes.
-TestMesh gridOfCubes() {
-    TestMesh mesh;
-    for (int i = 0; i < 64; ++i) {
-        const glm::vec3 lo = 2.0f * glm::vec3(glm::ivec3(i, i >> 2, i >> 4) & 3);
-        for (int axis = 0; axis < 3; ++axis)
-            for (const float side : {0.0f, 1.0f}) {
-                glm::vec3 a(0.0f);
-                glm::vec3 b(0.0f);
-                glm::vec3 corner = lo;
-                corner[axis] += side;
-                a[(axis + 1) % 3] = 1.0f;
-                b[(axis + 2) % 3] = 1.0f;
-                mesh.add(corner, corner + a, corner + a + b);
-                mesh.add(corner, corner + a + b, corner + b);
-            }
-    }
-    return mesh;
-}
-
-std::vector<OracleRay> raysAlongAxes(size_t count, uint32_t seed) {
-    Random random(seed);
-    const std::array<float, 5> tiny = {0.0f, -0.0f, 1e-42f, -1e-42f, 1e-30f};
-    std::vector<OracleRay> rays;
-    for (size_t i = 0; i < count; ++i) {
-        // Coordinates in planes of faces in half of the rays; the origin outside, between or inside the cubes.
-        glm::vec3 o = random.inCube(-2.0f, 9.0f);
-        if (i % 2 == 0) o[static_cast<int>(random.below(3))] = static_cast<float>(random.below(9)) - 1.0f;
-        const auto axis = static_cast<int>(random.below(3));
-        glm::vec3 d(tiny[random.below(5)], tiny[random.below(5)], tiny[random.below(5)]);
-        d[axis] = random.below(2) == 0 ? 1.0f : -1.0f;
-        if (i % 5 == 0) d[(axis + 1) % 3] = random.uniform(-1.0f, 1.0f);
-        rays.push_back({o, d, 1e-4f});  // many origins lie on a face, whose t is 0 but for rounding
-    }
-    return rays;
-}
-
 TEST(AccelLayoutWalks, RaysAlongAxesAndInFacesAgreeWithOracle) {
-    expectAgreement(gridOfCubes(), raysAlongAxes(8000, 76), 1e-4, 500);
+    expectAgreement(accel_test::gridOfCubes(), accel_test::raysAlongAxes(8000, 76), 1e-4, 500);
 }
 
 /// Also where a ray runs along an edge, which no oracle decides.
 TEST(AccelLayoutWalks, RaysAlongAxesAndInFacesAreTheSameInAllLayouts) {
-    const TestMesh mesh = gridOfCubes();
+    const TestMesh mesh = accel_test::gridOfCubes();
     Trees trees(mesh);
-    const std::vector<OracleRay> rays = raysAlongAxes(20000, 77);
+    const std::vector<OracleRay> rays = accel_test::raysAlongAxes(20000, 77);
     const Traceable first(mesh, trees, "bvh2");
     for (const std::string& layout : layoutNames()) {
         if (layout == first.layout) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "engine/accel/aabb.h"
+#include "engine/accel/brute_force.h"
 #include "engine/measure/stability/test_mesh.h"
 #include "tests/support/paths.h"
 
@@ -29,6 +31,44 @@ inline TestMesh randomSlivers(size_t count, uint32_t seed) {
         mesh.add(p, p + 0.5f * random.direction(), p + 0.5e-3f * random.direction());
     }
     return mesh;
+}
+
+/// Cubes on an integer grid, so that origins and directions can lie exactly in faces and along axes.
+inline TestMesh gridOfCubes() {
+    TestMesh mesh;
+    for (int i = 0; i < 64; ++i) {
+        const glm::vec3 lo = 2.0f * glm::vec3(glm::ivec3(i, i >> 2, i >> 4) & 3);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float side : {0.0f, 1.0f}) {
+                glm::vec3 a(0.0f);
+                glm::vec3 b(0.0f);
+                glm::vec3 corner = lo;
+                corner[axis] += side;
+                a[(axis + 1) % 3] = 1.0f;
+                b[(axis + 2) % 3] = 1.0f;
+                mesh.add(corner, corner + a, corner + a + b);
+                mesh.add(corner, corner + a + b, corner + b);
+            }
+    }
+    return mesh;
+}
+
+/// For gridOfCubes(): along axes or nearly so, with components of 0, -0 and denormals.
+inline std::vector<OracleRay> raysAlongAxes(size_t count, uint32_t seed) {
+    Random random(seed);
+    const std::array<float, 5> tiny = {0.0f, -0.0f, 1e-42f, -1e-42f, 1e-30f};
+    std::vector<OracleRay> rays;
+    for (size_t i = 0; i < count; ++i) {
+        // Coordinates in planes of faces in half of the rays; the origin outside, between or inside the cubes.
+        glm::vec3 o = random.inCube(-2.0f, 9.0f);
+        if (i % 2 == 0) o[static_cast<int>(random.below(3))] = static_cast<float>(random.below(9)) - 1.0f;
+        const auto axis = static_cast<int>(random.below(3));
+        glm::vec3 d(tiny[random.below(5)], tiny[random.below(5)], tiny[random.below(5)]);
+        d[axis] = random.below(2) == 0 ? 1.0f : -1.0f;
+        if (i % 5 == 0) d[(axis + 1) % 3] = random.uniform(-1.0f, 1.0f);
+        rays.push_back({o, d, 1e-4f});  // many origins lie on a face, whose t is 0 but for rounding
+    }
+    return rays;
 }
 
 constexpr const char* kNoDragon = "shared/scenes/stanford-dragon/dragon_vrip.ply is not beside the repository";

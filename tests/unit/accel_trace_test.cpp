@@ -210,43 +210,10 @@ TEST(AccelTrace, DragonAgreesWithOracle) {
     expectAgreement(part, randomRays(part.bvh.nodes[0].bounds, 6000, 47), 2e-3);
 }
 
-/// Boxes on an integer grid, so that origins and directions can lie exactly in faces and along axes.
-TestMesh gridOfCubes() {
-    TestMesh mesh;
-    for (int i = 0; i < 64; ++i) {
-        const glm::vec3 lo = 2.0f * glm::vec3(glm::ivec3(i, i >> 2, i >> 4) & 3);
-        for (int axis = 0; axis < 3; ++axis)
-            for (const float side : {0.0f, 1.0f}) {
-                glm::vec3 a(0.0f);
-                glm::vec3 b(0.0f);
-                glm::vec3 corner = lo;
-                corner[axis] += side;
-                a[(axis + 1) % 3] = 1.0f;
-                b[(axis + 2) % 3] = 1.0f;
-                mesh.add(corner, corner + a, corner + a + b);
-                mesh.add(corner, corner + a + b, corner + b);
-            }
-    }
-    return mesh;
-}
-
 TEST(AccelTrace, RaysAlongAxesAndInFacesAgreeWithOracle) {
-    const TestMesh mesh = gridOfCubes();
+    const TestMesh mesh = accel_test::gridOfCubes();
     const Traceable scene(mesh);
-    Random random(48);
-    const std::array<float, 5> tiny = {0.0f, -0.0f, 1e-42f, -1e-42f, 1e-30f};
-    std::vector<OracleRay> rays;
-    for (int i = 0; i < 20000; ++i) {
-        // One coordinate in a plane of faces in half of the rays; the origin outside, between or inside the cubes.
-        glm::vec3 o = random.inCube(-2.0f, 9.0f);
-        if (i % 2 == 0) o[random.below(3)] = static_cast<float>(random.below(9)) - 1.0f;
-        const auto axis = static_cast<int>(random.below(3));
-        glm::vec3 d(tiny[random.below(5)], tiny[random.below(5)], tiny[random.below(5)]);
-        d[axis] = random.below(2) == 0 ? 1.0f : -1.0f;
-        if (i % 5 == 0) d[(axis + 1) % 3] = random.uniform(-1.0f, 1.0f);
-        rays.push_back({o, d, 1e-4f});  // many origins lie on a face, whose t is 0 but for rounding
-    }
-    const Agreement agreement = compareWithOracle(scene, rays, 1e-4);
+    const Agreement agreement = compareWithOracle(scene, accel_test::raysAlongAxes(20000, 48), 1e-4);
     EXPECT_EQ(agreement.wrongHits, 0u);
     EXPECT_EQ(agreement.wrongDistances, 0u);
     EXPECT_GT(agreement.hits, 1000u);

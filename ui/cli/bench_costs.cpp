@@ -121,10 +121,12 @@ ExitCode benchCosts(const BenchOptions& options) {
     Device device({settings.device, settings.validation});
     BenchRun run{device, resolveForDevice(settings, device.description()), options.repeats, measureHostMemory(), {}};
     std::vector<ConfigurationCosts> all;
-    for (const Variant& configuration : configurationsOf(options, run.settings)) {
-        all.push_back(measureCosts(run, options, configuration));
-        if (options.json != "-") printCosts(all.back());
-    }
+    measureKeepingRows(options, run, [&] {
+        for (const Variant& configuration : configurationsOf(options, run.settings)) {
+            all.push_back(measureCosts(run, options, configuration));
+            if (options.json != "-") printCosts(all.back());
+        }
+    });
     if (!options.csv.empty()) writeCsv(options.csv, run.scenes);
     nlohmann::ordered_json json = benchJson(run);
     json["costs"] = costsJson(all);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "engine/core/file.h"
+#include "engine/gpu/check.h"
 
 namespace raylab {
 namespace {
@@ -55,6 +56,28 @@ nlohmann::ordered_json rowJson(const BenchRun& run, const std::string& scene, co
 }
 
 }  // namespace
+
+void measureKeepingRows(const BenchOptions& options, BenchRun& run, const std::function<void()>& measure) {
+    try {
+        measure();
+    } catch (const DeviceLost& loss) {
+        if (!options.csv.empty()) writeCsv(options.csv, run.scenes);
+        nlohmann::ordered_json json = benchJson(run);
+        json["deviceLoss"] = loss.what();
+        if (!options.json.empty()) writeJson(options.json, json);
+        throw DeviceLost(std::string(loss.what()) + "; what was measured before is kept (rows: " +
+                         std::to_string(json["rows"].size()) + ")");
+    }
+}
+
+void measureScenes(const BenchOptions& options, const BenchPlan& plan, BenchRun& run) {
+    measureKeepingRows(options, run, [&] {
+        for (const std::string& name : options.scenes) {
+            run.scenes.push_back(benchScene(run.device, name, loadBenchScene(name, options.materials), plan));
+            if (options.json != "-") printRows(run, run.scenes.back());
+        }
+    });
+}
 
 std::string subjectText(const SubjectLabel& label) {
     std::string text = label.tracer;

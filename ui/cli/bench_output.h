@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct BenchRun {
     /// Whether the memory that was measured is what rays on the device read.
     bool memoryIsDevices() const { return device.description().kind == "cpu"; }
 };
+
+/// Calls `measure`, which adds to run.scenes. Where the device is lost it writes the rows that there are as --csv and
+/// --json ask, and throws DeviceLost, saying so.
+void measureKeepingRows(const BenchOptions& options, BenchRun& run, const std::function<void()>& measure);
+/// The plan on each of the scenes that the options name; the rows are printed as they come.
+void measureScenes(const BenchOptions& options, const BenchPlan& plan, BenchRun& run);
 
 std::string subjectText(const SubjectLabel& label);
 void printMemory(const BenchRun& run);

@@ -41,12 +41,14 @@ std::vector<ScalingPoint> measurePoints(BenchRun& run, const BenchOptions& optio
                          .light = options.light,
                          .repeats = options.repeats};
     std::vector<ScalingPoint> points;
-    for (size_t wanted = kFewest; wanted <= static_cast<size_t>(options.largest); wanted *= 10) {
-        const Scene scene = makeCave(wanted);
-        run.scenes.push_back(benchScene(run.device, scene.name, scene, plan));
-        if (options.json != "-") printRows(run, run.scenes.back());
-        for (const BenchRow& row : run.scenes.back().rows) points.push_back({triangleCount(scene).stored, row});
-    }
+    measureKeepingRows(options, run, [&] {
+        for (size_t wanted = kFewest; wanted <= static_cast<size_t>(options.largest); wanted *= 10) {
+            const Scene scene = makeCave(wanted);
+            run.scenes.push_back(benchScene(run.device, scene.name, scene, plan));
+            if (options.json != "-") printRows(run, run.scenes.back());
+            for (const BenchRow& row : run.scenes.back().rows) points.push_back({triangleCount(scene).stored, row});
+        }
+    });
     return points;
 }
 

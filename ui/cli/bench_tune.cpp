@@ -74,10 +74,7 @@ ExitCode benchTune(const BenchOptions& options) {
                          .kinds = {"primary", "shadow", "diffuse"},
                          .light = options.light,
                          .repeats = options.repeats};
-    for (const std::string& name : options.scenes) {
-        run.scenes.push_back(benchScene(device, name, loadBenchScene(name, options.materials), plan));
-        if (options.json != "-") printRows(run, run.scenes.back());
-    }
+    measureScenes(options, plan, run);
     const std::vector<Ranked> ranking = rankingOf(run.scenes);
     const auto best = std::ranges::find(ranking, kTightTest, &Ranked::triangle);
     if (best == ranking.end() || !(best->mraysPerSecond > 0.0))

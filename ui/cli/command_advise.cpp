@@ -2,6 +2,7 @@
 
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/render/device_recovery.h"
 #include "engine/scene/import.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
@@ -30,21 +31,38 @@ AdviceGoal goalOf(const RenderSettings& settings) {
     return {settings.targetError, settings.timeLimit, {}};
 }
 
-AdviceReport makeReport(Device& device, const Scene& scene, const RenderSettings& base, const AdviseOptions& options) {
+/// After a loss it goes on from the last step on another device, as long as each of them brings a step; without, the
+/// report says so.
+AdviceReport makeReport(ReplaceableDevice& device, const Scene& scene, const RenderSettings& base,
+                        const AdviseOptions& options) {
     AdviceGoal goal = goalOf(base);
     goal.only = options.only;
     Progress progress(options.quiet);
-    std::optional<AdviceReport> report =
-        runAdvice(device, options.scene, scene, base, goal, options.referenceError,
-                  {.stop = InterruptGuard::isInterrupted,
-                   .onReference = [&](double done) { progress.show(done, 0, -1.0); },
-                   .onProgress =
-                       [&](const std::string& what) {
-                           progress.finish();
-                           logInfo(what);
-                       }});
-    if (!report) throw Error("interrupted; nothing was written");
-    return std::move(*report);
+    const AdviceWatch watch{.stop = InterruptGuard::isInterrupted,
+                            .onReference = [&](double done) { progress.show(done, 0, -1.0); },
+                            .onProgress =
+                                [&](const std::string& what) {
+                                    progress.finish();
+                                    logInfo(what);
+                                }};
+    AdviceReport report;
+    for (std::optional<size_t> before;; device.replace()) {
+        const std::vector<AdviceStep>& steps = report.advice.steps;
+        try {
+            if (!runAdvice(device.get(), options.scene, scene, base, goal, options.referenceError, watch, report))
+                throw Error("interrupted; nothing was written");
+            return report;
+        } catch (const DeviceLost& loss) {
+            progress.finish();
+            if (before == steps.size()) {
+                report.deviceLoss = loss.what();
+                return report;
+            }
+            logWarning("the device was lost (" + std::string(loss.what()) + "). " + std::to_string(steps.size()) +
+                       " steps are kept; the search goes on from there on a fresh device");
+        }
+        before = steps.size();
+    }
 }
 
 ExitCode adviseScene(const AdviseOptions& options) {
@@ -54,14 +72,21 @@ ExitCode adviseScene(const AdviseOptions& options) {
     requireReadableFile(scenePath(options.scene));
     if (!options.preset.empty()) requireWritable(options.preset);
     if (!options.json.empty() && options.json != "-") requireWritable(options.json);
-    Device device({base.device, base.validation});
+    ReplaceableDevice device({base.device, base.validation});
     const Scene scene = importScene(scenePath(options.scene));
     for (const std::string& warning : scene.warnings) logWarning(warning);
     const InterruptGuard guard;
     const AdviceReport report = makeReport(device, scene, base, options);
-    if (!options.preset.empty()) writeJson(options.preset, presetJson(report));
+    const bool isComplete = report.deviceLoss.empty();
+    if (isComplete && !options.preset.empty()) writeJson(options.preset, presetJson(report));
     if (!options.json.empty()) writeJson(options.json, adviceJson(report));
     if (options.json != "-") printAdvice(report);
+    if (!isComplete) {
+        logError(report.deviceLoss +
+                 "; the steps before are kept, but nothing was forecast, so there is no preset: "
+                 "--only searches without what lost the device");
+        return ExitCode::noDevice;
+    }
     return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;
 }
 

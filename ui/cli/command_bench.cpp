@@ -30,10 +30,7 @@ ExitCode benchScenes(const BenchOptions& options) {
     BenchRun run{device, settings, options.repeats, measureHostMemory(), {}};
     const bool print = options.json != "-";
     if (print) printMemory(run);
-    for (const std::string& name : options.scenes) {
-        run.scenes.push_back(benchScene(device, name, loadBenchScene(name, options.materials), plan));
-        if (print) printRows(run, run.scenes.back());
-    }
+    measureScenes(options, plan, run);
     nlohmann::ordered_json json = benchJson(run);
     size_t slower = 0;
     if (!options.compare.empty()) {

@@ -3,6 +3,7 @@
 
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/render/device_recovery.h"
 #include "engine/scene/import.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
@@ -46,15 +47,29 @@ ChartOrder orderOf(const ChartOptions& options, const RenderSettings& base, cons
             .referenceError = options.referenceError};
 }
 
+/// After a loss it goes on from the folder on another device, as long as each but the first brings points.
+Chart chartDespiteLosses(ReplaceableDevice& device, const Scene& scene, const ChartOrder& order,
+                         const ChartWatch& watch) {
+    Chart chart = runChart(device.get(), scene, order, watch);
+    for (std::optional<size_t> before; !chart.deviceLoss.empty() && before != chart.table.points.size();) {
+        before = chart.table.points.size();
+        logWarning("the device was lost (" + chart.deviceLoss + "). " + std::to_string(*before) +
+                   " points are kept; the chart goes on from there on a fresh device");
+        device.replace();
+        chart = runChart(device.get(), scene, order, watch);
+    }
+    return chart;
+}
+
 ExitCode chartScene(const ChartOptions& options) {
     setQuiet(options.quiet);
     const RenderSettings base = options.settings.resolve();
     requireReadableFile(scenePath(options.scene));
     requireWritable(std::filesystem::path(options.folder) / "chart.csv");
-    Device device({base.device, base.validation});
+    ReplaceableDevice device({base.device, base.validation});
     const Scene scene = importScene(scenePath(options.scene));
     for (const std::string& warning : scene.warnings) logWarning(warning);
-    const ChartOrder order = orderOf(options, base, device.description());
+    const ChartOrder order = orderOf(options, base, device.get().description());
     const InterruptGuard guard;
     std::optional<Progress> progress(options.quiet);
     bool isMeasuring = false;
@@ -62,12 +77,17 @@ ExitCode chartScene(const ChartOptions& options) {
         if (!std::exchange(isMeasuring, true)) progress.emplace(options.quiet);  // a clock of its own
         progress->show(done, samplesOfLevel(shot.level), -1.0);
     };
-    const Chart chart = runChart(device, scene, order,
-                                 {.stop = InterruptGuard::isInterrupted,
-                                  .onReference = [&](double done) { progress->show(done, 0, -1.0); },
-                                  .onPoint = onPoint});
+    const Chart chart = chartDespiteLosses(device, scene, order,
+                                           {.stop = InterruptGuard::isInterrupted,
+                                            .onReference = [&](double done) { progress->show(done, 0, -1.0); },
+                                            .onPoint = onPoint});
     progress.reset();
     printChart(chart);
+    if (!chart.deviceLoss.empty()) {
+        logError(chart.deviceLoss + "; the " + std::to_string(chart.table.points.size()) + " points in " +
+                 options.folder + " are kept, and the same command goes on from there");
+        return ExitCode::noDevice;
+    }
     return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;
 }
 

@@ -3,6 +3,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
+#include "engine/render/device_recovery.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
 #include "ui/report/stability_output.h"
@@ -62,15 +63,20 @@ ExitCode runStability(const StabilityOptions& options) {
     }
     requireFiles(options);
     const fs::path scenes = scenesFolder(options.scenes);
-    Device device({options.device, options.validation});
-    const stability::Plan plan = stabilityPlan(options.cases, options.configs, device.description());
+    ReplaceableDevice device({options.device, options.validation});
+    const stability::Plan plan = stabilityPlan(options.cases, options.configs, device.get().description());
     const InterruptGuard guard;
     const Stopwatch watch;
-    const stability::Context context{device, {}, options.quick, scenes, executableFolder() / "raylab", [&] {
-                                         return !InterruptGuard::isInterrupted() &&
-                                                (options.timeLimit <= 0.0 || watch.seconds() < options.timeLimit);
-                                     }};
-    StabilityRun run{device, options.quick, 0.0, {}};
+    const auto goesOn = [&] {
+        return !InterruptGuard::isInterrupted() && (options.timeLimit <= 0.0 || watch.seconds() < options.timeLimit);
+    };
+    const auto replaceDevice = [&] {
+        device.replace();
+        return &device.get();
+    };
+    const stability::Context context{device.get(), {},           options.quick, scenes, executableFolder() / "raylab",
+                                     goesOn,       replaceDevice};
+    StabilityRun run{device.get().description(), options.quick, 0.0, {}};
     run.result =
         stability::runBattery(plan, context, [&](const auto&, const auto&, std::span<const stability::Row> rows) {
             if (options.prints())

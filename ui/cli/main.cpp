@@ -33,7 +33,9 @@ ExitCode runCommandLine(int argc, char** argv) {
             app.exit(error);
             return ExitCode::done;
         }
-        logError(std::string(error.what()) + "\nraylab --help and raylab SUBCOMMAND --help list what there is");
+        const bool isUnknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+        logError((isUnknown ? "there is no subcommand '" + std::string(argv[1]) + "'" : std::string(error.what())) +
+                 "\nraylab --help and raylab SUBCOMMAND --help list what there is");
         return ExitCode::badInput;
     }
     return chosen();

@@ -16,12 +16,14 @@ std::shared_ptr<const AdviceReport> search(const Scene& scene, const std::string
         control.report("Advice: " + what);
     };
     Device device({settings.device, settings.validation});
-    std::optional<AdviceReport> report =
+    AdviceReport report;
+    const bool isDone =
         runAdvice(device, name, scene, settings, goal, 0.0,
                   {.stop = [&] { return control.isCancelled(); },
                    .onReference = [&](double done) { tell(progressText("rendering the reference", done)); },
-                   .onProgress = tell});
-    return report ? std::make_shared<const AdviceReport>(std::move(*report)) : nullptr;
+                   .onProgress = tell},
+                  report);
+    return isDone ? std::make_shared<const AdviceReport>(std::move(report)) : nullptr;
 }
 
 }  // namespace

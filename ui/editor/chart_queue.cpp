@@ -58,7 +58,10 @@ void measureChart(const Scene& scene, const ChartOrder& order, ChartFeed& feed, 
                                    feed.add(chart, shot, done);
                                    control.report(progressText("Chart: measuring", done));
                                }};
-    feed.end(runChart(device, scene, order, watch));
+    Chart chart = runChart(device, scene, order, watch);
+    const std::string loss = chart.deviceLoss;
+    feed.end(std::move(chart));
+    if (!loss.empty()) throw Error(loss);
     if (device.validationMessageCount() > 0) throw Error("the chart made the validation layers complain");
 }
 

@@ -3,17 +3,27 @@
 #include <array>
 
 #include "engine/core/file.h"
+#include "engine/render/device_recovery.h"
 #include "ui/report/stability_plan.h"
 
 namespace raylab {
 namespace {
 
 void runOrder(const StabilityOrder& order, const RenderSettings& machine, StabilityFeed& feed, JobControl& control) {
-    Device device({machine.device, machine.validation});
+    ReplaceableDevice device({machine.device, machine.validation});
     const std::array sets = {order.configs};
-    const stability::Plan plan = stabilityPlan(order.ids, sets, device.description());
-    const stability::Context context{
-        device, {}, order.quick, sharedScenes(), executableFolder() / "raylab", [&] { return !control.isCancelled(); }};
+    const stability::Plan plan = stabilityPlan(order.ids, sets, device.get().description());
+    const auto replaceDevice = [&] {
+        device.replace();
+        return &device.get();
+    };
+    const stability::Context context{device.get(),
+                                     {},
+                                     order.quick,
+                                     sharedScenes(),
+                                     executableFolder() / "raylab",
+                                     [&] { return !control.isCancelled(); },
+                                     replaceDevice};
     const stability::BatteryResult result = stability::runBattery(
         plan, context,
         [&](const stability::Case& which, const stability::Config& config, std::span<const stability::Row> rows) {

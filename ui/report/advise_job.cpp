@@ -15,34 +15,35 @@ double referenceErrorOf(double asked, const AdviceGoal& goal) {
     return goal.relativeError > 0.0 ? kReferenceShare * goal.relativeError : kReferenceErrorOfTime;
 }
 
+bool obtainReferenceOf(AdviceReport& report, Device& device, const Scene& scene, double error,
+                       const AdviceWatch& watch) {
+    if (!report.reference.image.mean.pixels.empty()) return true;
+    logInfo("reference: path tracing to a relative error of " + settingText(error));
+    std::optional<Reference> reference =
+        obtainReference(device, scene, referenceSettings(report.base, ReferenceKind::path), error, referenceFolder(),
+                        watch.stop, watch.onReference);
+    if (reference) report.reference = std::move(*reference);
+    return reference.has_value();
+}
+
 }  // namespace
 
-std::optional<AdviceReport> runAdvice(Device& device, const std::string& sceneName, const Scene& scene,
-                                      const RenderSettings& base, const AdviceGoal& goal, double referenceError,
-                                      const AdviceWatch& watch) {
-    AdviceReport report;
+bool runAdvice(Device& device, const std::string& sceneName, const Scene& scene, const RenderSettings& base,
+               const AdviceGoal& goal, double referenceError, const AdviceWatch& watch, AdviceReport& report) {
     report.scene = sceneName;
     report.device = device.description().name;
     report.goal = goal;
     report.base = resolveForDevice(base, device.description());
     report.base.timeLimit = report.base.targetError = 0.0;
-    const double error = referenceErrorOf(referenceError, goal);
-    logInfo("reference: path tracing to a relative error of " + settingText(error));
-    std::optional<Reference> reference =
-        obtainReference(device, scene, referenceSettings(report.base, ReferenceKind::path), error, referenceFolder(),
-                        watch.stop, watch.onReference);
-    if (!reference) return std::nullopt;
-    report.reference = std::move(*reference);
-    std::optional<Advice> advice =
-        advise(device, scene, report.base, report.reference, report.goal, watch.stop, watch.onProgress);
-    if (!advice) return std::nullopt;
-    report.advice = std::move(*advice);
+    if (!obtainReferenceOf(report, device, scene, referenceErrorOf(referenceError, goal), watch)) return false;
+    if (!advise(device, scene, report.base, report.reference, report.goal, watch.stop, watch.onProgress, report.advice))
+        return false;
     watch.onProgress("lights");
     auto lights = lightShares(device, scene, report.advice.settings, report.reference, watch.stop);
-    if (!lights) return std::nullopt;
+    if (!lights) return false;
     report.lights = std::move(*lights);
     report.textures = texturesBelowPixels(scene, report.base);
-    return report;
+    return true;
 }
 
 }  // namespace raylab

@@ -14,9 +14,9 @@ struct AdviceWatch {
 };
 
 /// The reference (`referenceError` 0: half of the goal's error), the search, and what the scene does not need. `scene`
-/// as the user names it. Nothing where the watch says stop. Throws Error as advise() does.
-std::optional<AdviceReport> runAdvice(Device& device, const std::string& sceneName, const Scene& scene,
-                                      const RenderSettings& base, const AdviceGoal& goal, double referenceError,
-                                      const AdviceWatch& watch);
+/// as the user names it. `report` gets all of it piece by piece; what it holds is not done again, so that a search goes
+/// on after a loss of the device. False where the watch says stop. Throws Error as advise() does.
+bool runAdvice(Device& device, const std::string& sceneName, const Scene& scene, const RenderSettings& base,
+               const AdviceGoal& goal, double referenceError, const AdviceWatch& watch, AdviceReport& report);
 
 }  // namespace raylab

@@ -111,7 +111,7 @@ nlohmann::ordered_json adviceJson(const AdviceReport& report) {
     for (const FineTexture& t : report.textures)
         textures.push_back(
             {{"name", t.name}, {"width", t.width}, {"height", t.height}, {"texelsPerPixel", t.texelsPerPixel}});
-    return {
+    nlohmann::ordered_json json{
         {"schema", "raylab.advise/1"},
         {"version", RAYLAB_VERSION},
         {"scene", report.scene},
@@ -120,13 +120,16 @@ nlohmann::ordered_json adviceJson(const AdviceReport& report) {
         {"timeLimit", report.goal.seconds},
         {"reference", {{"from", report.reference.origin}, {"relativeError", report.reference.relativeError}}},
         {"settings", settingsJson(report.advice.settings)},
-        {"steps", steps},
-        {"forecast", forecastJson(report.advice.forecast)},
-        {"default", forecastJson(report.advice.standard)},
-        {"achieved",
-         {{"deviceSeconds", report.advice.achieved.seconds}, {"relativeError", report.advice.achieved.relativeError}}},
-        {"lights", lights},
-        {"texturesBelowPixels", textures}};
+        {"deviceLoss", report.deviceLoss},
+        {"steps", steps}};
+    if (!report.deviceLoss.empty()) return json;
+    json["forecast"] = forecastJson(report.advice.forecast);
+    json["default"] = forecastJson(report.advice.standard);
+    json["achieved"] = {{"deviceSeconds", report.advice.achieved.seconds},
+                        {"relativeError", report.advice.achieved.relativeError}};
+    json["lights"] = lights;
+    json["texturesBelowPixels"] = textures;
+    return json;
 }
 
 nlohmann::ordered_json presetJson(const AdviceReport& report) {
@@ -145,6 +148,7 @@ void printAdvice(const AdviceReport& report) {
     const Advice& advice = report.advice;
     std::cout << "What it chose, each by its gain: time to the same error before, over that after\n";
     for (const AdviceStep& step : advice.steps) printStep(step);
+    if (!report.deviceLoss.empty()) return;
     printUnneeded(report);
     std::cout << "Forecast\n";
     std::cout << "  advised: " << forecastText(advice.forecast) << "\n  default: " << forecastText(advice.standard) << "\n"

@@ -20,6 +20,7 @@ struct AdviceReport {
     Advice advice;
     std::vector<LightShare> lights;
     std::vector<FineTexture> textures;
+    std::string deviceLoss;  ///< what the driver said when it ended the search; empty: the search came through
 };
 
 nlohmann::ordered_json adviceJson(const AdviceReport& report);
@@ -33,7 +34,7 @@ std::string gainText(const Interval& gain);
 /// Samples, time and error; or why there is none.
 std::string forecastText(const Forecast& forecast);
 
-/// In sentences, to standard output.
+/// In sentences, to standard output; after a loss of the device, the steps alone.
 void printAdvice(const AdviceReport& report);
 
 }  // namespace raylab

@@ -14,20 +14,46 @@
 namespace raylab {
 namespace {
 
-/// A set varies one setting. Without values: all of its choices that are pictures of the scene.
+/// What a set compares: lists of assignments to settings, NAME=VALUE, each a configuration.
+using Assignments = std::vector<std::string>;
+
+/// A set varies one setting, by the values or, without any, by all of its choices that are pictures of the scene; or it
+/// has configurations of its own.
 struct ChartSet {
     const char* name;
     const char* setting;
     std::vector<std::string> values;
+    std::vector<Assignments> configs{};
 };
 
 const std::vector<ChartSet>& chartSets() {
     static const std::vector<ChartSet> sets = {
-        {"methods", "integrator", {}},  {"tracers", "tracer", {}},   {"triangles", "triangle", {}},
-        {"builders", "builder", {}},    {"layouts", "layout", {}},   {"depth", "depth", {"1", "2", "4", "10", "25"}},
-        {"lights", "light-choice", {}}, {"samplers", "sampler", {}},
+        {"methods", "integrator", {}},
+        {"tracers", "tracer", {}},
+        {"triangles", "triangle", {}},
+        {"builders", "builder", {}},
+        {"layouts", "layout", {}},
+        {"depth", "depth", {"1", "2", "4", "10", "25"}},
+        {"lights", "light-choice", {}},
+        {"samplers", "sampler", {}},
+        {"denoise", "denoise", {}},
+        {"precision",
+         "",
+         {},
+         {{"offset=error-bound", "slab=padded", "triangle=watertight"},
+          {"offset=ulp"},
+          {"offset=epsilon"},
+          {"slab=plain"},
+          {"triangle=minimal"},
+          {"offset=epsilon", "slab=plain", "triangle=minimal"}}},
     };
     return sets;
+}
+
+const ChartSet& findSet(const std::string& name) {
+    const auto set = std::ranges::find(chartSets(), name, &ChartSet::name);
+    if (set == chartSets().end()) throw Error("there is no set of configurations '" + name + "'");
+    return *set;
 }
 
 bool isComparable(const ChartSet& set, const std::string& value) {
@@ -35,10 +61,16 @@ bool isComparable(const ChartSet& set, const std::string& value) {
     return value != kAutoLayout;
 }
 
+std::vector<std::string> choicesOf(const ChartSet& set) {
+    if (!set.values.empty()) return set.values;
+    const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), set.setting);
+    const bool isSwitch = std::holds_alternative<bool RenderSettings::*>(setting.member);
+    return isSwitch ? std::vector<std::string>{"false", "true"} : setting.choices;
+}
+
 /// Values of a set that the device runs.
 std::vector<std::string> valuesOf(const ChartSet& set, const DeviceDescription& device) {
-    std::vector<std::string> values = set.values;
-    if (values.empty()) values = findSetting(renderSettingsTable(), set.setting).choices;
+    std::vector<std::string> values = choicesOf(set);
     std::erase_if(values, [&](const std::string& value) { return !isComparable(set, value); });
     if (std::string_view(set.setting) != "tracer") return values;
     std::erase_if(values, [&](const std::string& value) {
@@ -49,13 +81,15 @@ std::vector<std::string> valuesOf(const ChartSet& set, const DeviceDescription& 
     return values;
 }
 
-std::string axisOf(const std::string& name, const DeviceDescription& device) {
-    const auto set = std::ranges::find(chartSets(), name, &ChartSet::name);
-    if (set == chartSets().end()) throw Error("there is no set of configurations '" + name + "'");
-    std::string axis = std::string(set->setting) + "=";
-    for (const std::string& value : valuesOf(*set, device)) axis += value + ",";
-    axis.pop_back();
-    return axis;
+std::vector<Assignments> configsOf(const std::string& name, const DeviceDescription& device) {
+    const std::string missing = missingForChartSet(name);
+    if (!missing.empty()) throw Error("--set-of " + name + ": " + missing);
+    const ChartSet& set = findSet(name);
+    std::vector<Assignments> configs = set.configs;
+    if (configs.empty())
+        for (const std::string& value : valuesOf(set, device))
+            configs.push_back({std::string(set.setting) + "=" + value});
+    return configs;
 }
 
 void addConfig(std::vector<ChartConfig>& configs, const std::string& name, const RenderSettings& settings) {
@@ -112,13 +146,21 @@ std::vector<std::string> chartSetNames() {
     return names;
 }
 
+std::string missingForChartSet(const std::string& name) {
+    const ChartSet& set = findSet(name);
+    const auto isIts = [&](const Setting<RenderSettings>& row) { return row.name == set.setting; };
+    if (!set.configs.empty() || std::ranges::any_of(renderSettingsTable(), isIts)) return {};
+    return "there is no setting '" + std::string(set.setting) + "' in this raylab yet; choose another set";
+}
+
 std::vector<ChartConfig> chartConfigs(const RenderSettings& base, const ChartRequest& request,
                                       const DeviceDescription& device) {
     std::vector<ChartConfig> configs;
     if (!request.file.empty()) configs = readConfigs(request.file, base);
     for (const std::string& set : request.sets)
-        for (const Variation& variation : gridOf(base, {axisOf(set, device)}))
-            addConfig(configs, variation.text(), variation.settings);
+        for (const Assignments& assignments : configsOf(set, device))
+            for (const Variation& variation : gridOf(base, assignments))
+                addConfig(configs, variation.text(), variation.settings);
     configs = vary(configs, base, request.vary);
     for (ChartConfig& config : configs) {
         config.settings = resolveForDevice(config.settings, device);

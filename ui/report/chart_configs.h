@@ -11,6 +11,9 @@ namespace raylab {
 /// Names of the sets of configurations that come with raylab.
 std::vector<std::string> chartSetNames();
 
+/// Why there is nothing to compare in a set, which waits for a method that raylab has not got; empty where there is.
+std::string missingForChartSet(const std::string& name);
+
 /// What the user asked a chart to compare.
 struct ChartRequest {
     std::vector<std::string> sets;  ///< names; those of several sets stand side by side

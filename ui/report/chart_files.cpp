@@ -38,7 +38,8 @@ Bitmap shrunk(const Bitmap& bitmap) {
 /// Without what the chart itself chooses.
 nlohmann::ordered_json comparableSettings(const RenderSettings& settings) {
     nlohmann::ordered_json json = settingsJson(settings);
-    for (const char* name : {"spp", "seed", "time-limit", "target-error", "device", "validation"}) json.erase(name);
+    for (const char* name : {"spp", "seed", "time-limit", "target-error", "slice-ms", "device", "validation"})
+        json.erase(name);
     return json;
 }
 

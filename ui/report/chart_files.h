@@ -30,6 +30,7 @@ struct Chart {
     std::vector<int> levelLimits;  ///< below plan.levels: the time limit ended it
     std::vector<std::optional<RenderTimes>> setupTimes;
     bool isInterrupted = false;
+    std::string deviceLoss;  ///< what the driver said when it ended the run; empty: it did not
 
     std::filesystem::path csvFile() const { return folder / "chart.csv"; }
     std::filesystem::path jsonFile() const { return folder / "chart.json"; }

@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/gpu/check.h"
 #include "engine/measure/scene_hash.h"
 #include "ui/report/chart_output.h"
 #include "ui/report/settings_file.h"
@@ -77,8 +78,8 @@ Chart makeChart(const ChartOrder& order, const Scene& scene, const DeviceDescrip
     return chart;
 }
 
-/// Measures until all is done or the watch says stop; the table on disk follows each point.
-void measure(ChartRun& run, Chart& chart, const ChartWatch& watch) {
+/// The table on disk follows each point.
+void measurePoints(ChartRun& run, Chart& chart, const ChartWatch& watch) {
     const bool hasFolder = !chart.folder.empty();
     while (const std::optional<ChartShot> shot = run.next(watch.stop)) {
         chart.table = run.table();
@@ -88,11 +89,20 @@ void measure(ChartRun& run, Chart& chart, const ChartWatch& watch) {
             writePictures(chart, shot->config, samplesOfLevel(shot->level), makePictures(chart, *shot));
         watch.onPoint(chart, *shot, run.fractionDone());
     }
+}
+
+/// Measures until all is done, the watch says stop or the device is lost.
+void measure(ChartRun& run, Chart& chart, const ChartWatch& watch) {
+    try {
+        measurePoints(run, chart, watch);
+    } catch (const DeviceLost& loss) {
+        chart.deviceLoss = loss.what();
+    }
     chart.table = run.table();
     chart.partials = run.partials();
     chart.levelLimits = run.levelLimits();
     chart.setupTimes = run.setupTimes();
-    chart.isInterrupted = watch.stop();
+    chart.isInterrupted = watch.stop() || !chart.deviceLoss.empty();
     analyse(chart);
 }
 

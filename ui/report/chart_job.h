@@ -30,8 +30,9 @@ struct ChartWatch {
 };
 
 /// Measures what `order` asks for, and goes on from what its folder holds. Where the watch says stop, the chart is what
-/// was measured until then, and isInterrupted. The scene's environment must not be settled. Throws Error, also where it
-/// is stopped before there is a reference.
+/// was measured until then, and isInterrupted; so it is where the device is lost, as deviceLoss says. The scene's
+/// environment must not be settled. Throws Error, also where it is stopped before there is a reference, and DeviceLost
+/// where the device is lost before.
 Chart runChart(Device& device, const Scene& scene, const ChartOrder& order, const ChartWatch& watch);
 
 }  // namespace raylab

@@ -210,6 +210,7 @@ void writeChartJson(const Chart& chart) {
                                       {"error", nameOf(chart.plan.measure)},
                                       {"confidence", kConfidence},
                                       {"interrupted", chart.isInterrupted},
+                                      {"deviceLoss", chart.deviceLoss},
                                       {"answer", chartAnswer(chart, tables)},
                                       {"curves", curves},
                                       {"equalError", rowsJson(tables.equalError, chart, "error")},

@@ -192,7 +192,8 @@ std::string chartReport(const Chart& chart, const ChartTables& tables) {
     html += "<h1>" + xmlEscaped(chartTitle(chart)) + "</h1>\n<p class=\"soft\">" + xmlEscaped(chartSubtitle(chart)) +
             "</p>\n";
     html += "<p class=\"answer\">" + xmlEscaped(chartAnswer(chart, tables)) + "</p>\n";
-    if (chart.isInterrupted) html += "<p>Interrupted: the same command resumes it.</p>\n";
+    if (chart.isInterrupted) html += "<p>Interrupted" + (chart.deviceLoss.empty() ? "" : ", " + xmlEscaped(chart.deviceLoss)) +
+                ": the same command resumes it.</p>\n";
     html += chartSvg(chart.curves, {chartTitle(chart), chartSubtitle(chart), errorAxisLabel(chart)});
     html += picturesOf(chart);
     html += "<h2>Time to equal error</h2>\n" + tableOf(chart, tables.equalError, "error", shortNumber, secondsText);

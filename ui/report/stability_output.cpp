@@ -87,7 +87,7 @@ void printSummary(const StabilityRun& run) {
     }
     std::cout << "\n"
               << passed << " pass, " << failed << " fail, " << skipped << " skipped, in " << std::setprecision(3)
-              << run.seconds << " s on " << run.device.description().name << "\n";
+              << run.seconds << " s on " << run.device.name << "\n";
     if (!run.result.complete) std::cout << "partial: stopped before the end\n";
     for (const Row& row : run.result.rows)
         if (row.isDefault && row.fails())
@@ -98,8 +98,8 @@ void printSummary(const StabilityRun& run) {
 Json stabilityJson(const StabilityRun& run) {
     Json json;
     json["schema"] = "raylab.stability/1";
-    json["device"] = run.device.description().name;
-    json["driver"] = run.device.description().driver;
+    json["device"] = run.device.name;
+    json["driver"] = run.device.driver;
     json["quick"] = run.quick;
     json["complete"] = run.result.complete;
     json["seconds"] = run.seconds;

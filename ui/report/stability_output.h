@@ -10,7 +10,7 @@ namespace raylab {
 
 /// What `raylab stability` measured, for all reports.
 struct StabilityRun {
-    const Device& device;
+    DeviceDescription device;
     bool quick = false;
     double seconds = 0.0;
     stability::BatteryResult result;

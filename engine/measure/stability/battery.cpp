@@ -31,7 +31,8 @@ Row failedRow(const Case& which, const Config& config, const std::string& why) {
     return row;
 }
 
-std::vector<Row> runCase(const Case& which, const Config& config, const Context& context) {
+/// `isLost`: whether the device is lost, and no case works on it any more.
+std::vector<Row> runCase(const Case& which, const Config& config, const Context& context, bool& isLost) {
     std::vector<Row> rows;
     if (!config.missing.empty()) return {skippedRow(which, config, "the device lacks " + config.missing)};
     try {
@@ -41,12 +42,18 @@ std::vector<Row> runCase(const Case& which, const Config& config, const Context&
         }
     } catch (const Skipped& skipped) {
         rows = {skippedRow(which, config, skipped.what())};
-    } catch (const DeviceLost&) {
-        throw;  // no case works on that device any more
+    } catch (const DeviceLost& loss) {
+        isLost = true;
+        rows = {failedRow(which, config, loss.what())};
     } catch (const Error& error) {
         rows = {failedRow(which, config, error.what())};
     }
     return rows;
+}
+
+Context contextOn(Device& device, const Config& config, const Context& context) {
+    return {device,          config.settings, context.quick,        context.scenes,
+            context.program, context.goesOn,  context.replaceDevice};
 }
 
 }  // namespace
@@ -76,19 +83,21 @@ std::vector<const Case*> casesOf(std::string_view id) {
 
 BatteryResult runBattery(const Plan& plan, const Context& context, const BatteryProgress& progress) {
     BatteryResult result;
+    Device* device = &context.device;
     try {
         for (const Case* each : plan.cases)
             for (const Config& config : plan.configs) {
                 if (!config.isDefault() && (config.axes & each->axes) != config.axes) continue;
                 context.check();
                 progress(*each, config, {});
-                Context here = context;
-                here.settings = config.settings;
                 const Stopwatch watch;
-                std::vector<Row> rows = runCase(*each, config, here);
+                bool isLost = false;
+                std::vector<Row> rows = runCase(*each, config, contextOn(*device, config, context), isLost);
                 for (Row& row : rows) row.seconds = watch.seconds();
                 progress(*each, config, rows);
                 for (Row& row : rows) result.rows.push_back(std::move(row));
+                if (isLost && !context.replaceDevice) throw Stopped("the device is lost");
+                if (isLost) device = context.replaceDevice();
             }
     } catch (const Stopped&) {
         result.complete = false;

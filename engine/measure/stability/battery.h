@@ -14,6 +14,7 @@
 #include "engine/gpu/device.h"
 #include "engine/image/bitmap.h"
 #include "engine/measure/stability/evidence.h"
+#include "engine/measure/stability/plot.h"
 #include "engine/render/render_settings.h"
 
 /// The stability battery: where ray tracers fail, a number for each failure, on each configuration.
@@ -55,8 +56,9 @@ struct Number {
     double limit = kNoLimit;  ///< passes up to here; kNoLimit: reported only
     std::string unit;
     std::string note;               ///< what else is worth knowing
-    std::optional<Bitmap> picture;  ///< of where it fails, display-referred; made where it does
+    std::optional<Bitmap> picture;  ///< display-referred: of where it fails, or of what a number without limit is about
     std::optional<Evidence> evidence = std::nullopt;  ///< to be looked at; where the case has such
+    std::optional<Plot> plot = std::nullopt;          ///< of how the number comes about
     bool passes() const { return value <= limit; }
 };
 
@@ -83,6 +85,8 @@ struct Context {
     std::filesystem::path scenes{};   ///< folder of scenes that are not raylab's own; empty: none
     std::filesystem::path program{};  ///< raylab itself, for cases that start it; empty: none
     std::function<bool()> goesOn{};   ///< asked often; nothing: always
+    /// Another device in the place of a lost one, of which nothing is left; nothing: a loss ends the battery.
+    std::function<Device*()> replaceDevice{};
 
     size_t rays(size_t full) const { return quick ? full / 10 : full; }
     /// Throws Stopped.
@@ -129,11 +133,11 @@ using BatteryProgress = std::function<void(const Case& which, const Config& conf
 
 struct BatteryResult {
     std::vector<Row> rows;
-    bool complete = true;  ///< false: stopped before
+    bool complete = true;  ///< false: stopped before, or without a device
 };
 
 /// Runs the plan's cases under each configuration that they may depend on; `context` without its settings. A case that
-/// throws is a row that fails, with the message.
+/// throws, or loses its device, is a row that fails, with the message; after a loss the next case has another device.
 BatteryResult runBattery(const Plan& plan, const Context& context, const BatteryProgress& progress);
 
 }  // namespace raylab::stability

@@ -40,6 +40,7 @@ constexpr std::array kCases = {
     Case{"S21", "lights and cameras in odd places", kAxisTracer, measureDegenerateLights},
     Case{"S22", "determinism", kAxisTracer | kAxisLayout, measureDeterminism},
     Case{"S22", "software against ray query", kAxisNone, measureAgainstQuery},
+    Case{"S22", "software against the ray tracing pipeline", kAxisNone, measureAgainstPipeline},
     Case{"S23", "misuse of Vulkan", kAxisNone, measureValidation},
     Case{"S24", "nothing at all", kTraversal, measureEmpty},
     Case{"S24", "more triangles than a buffer holds", kTraversal, measureLarge},
@@ -49,6 +50,10 @@ constexpr std::array kCases = {
     Case{"S28", "leaves that shadow themselves", kOrigins, measureLeaves},
     Case{"S29", "instances of scale 1e-6 and 1e6", kOrigins, measureScaledInstances},
     Case{"S30", "shadow rays that end too early", kAxisNone, measureShades},
+    Case{"S31", "normals that are not the triangles'", kOrigins, measureShadingNormals},
+    Case{"S32", "many texels a pixel", kAxisTracer, measureFarTextures},
+    Case{"S33", "sums of many samples", kAxisNone, measureManySamples},
+    Case{"S34", "random numbers that know each other", kAxisNone, measureCorrelation},
 };
 
 }  // namespace

@@ -61,6 +61,13 @@ std::vector<Number> measureTrucks(const Context& context);
 std::vector<Number> measureEmpty(const Context& context);
 std::vector<Number> measureLarge(const Context& context);
 
+// Light that is found seldom or never: cases_fireflies.cpp.
+/// S18: how far the slope of the error over samples is from -.5, what a clamp takes, and how bright fireflies are.
+std::vector<Number> measureFireflies(const Context& context);
+std::vector<Number> measureWaterCaustic(const Context& context);
+/// S26: light behind glass that path tracing cannot find.
+std::vector<Number> measureMissedCaustic(const Context& context);
+
 // Light: cases_light.cpp.
 /// S15: black and non-finite pixels of mirrors at grazing angles and of coarse smooth normals.
 std::vector<Number> measureGrazing(const Context& context);
@@ -69,15 +76,22 @@ std::vector<Number> measureNormalTangentTest(const Context& context);
 std::vector<Number> measureCorridor(const Context& context);
 /// S17: light that clear glass makes of nothing, below a white sky.
 std::vector<Number> measureGlass(const Context& context);
-/// S18: how far the slope of the error over samples is from -.5, what a clamp takes, and how bright fireflies are.
-std::vector<Number> measureFireflies(const Context& context);
-std::vector<Number> measureWaterCaustic(const Context& context);
 /// S19: GGX of alpha 1e-3 and 1e-4 against the mirror.
 std::vector<Number> measureNearlySpecular(const Context& context);
 /// S20: one flux over 1, 100 and 10,000 lights.
 std::vector<Number> measureManyLights(const Context& context);
-/// S26: light behind glass that path tracing cannot find.
-std::vector<Number> measureMissedCaustic(const Context& context);
+
+// What stands in for geometry: cases_shading.cpp.
+/// S31: light that smooth normals of coarse balls lose, and make, below a white sky.
+std::vector<Number> measureShadingNormals(const Context& context);
+/// S32: means of textures with many texels a pixel, and noise of their samples.
+std::vector<Number> measureFarTextures(const Context& context);
+
+// Samples: cases_sampling.cpp.
+/// S33: error of the mean of many samples that add up to what is exactly known.
+std::vector<Number> measureManySamples(const Context& context);
+/// S34: correlation of noise between pixels and between seeds, in standard errors.
+std::vector<Number> measureCorrelation(const Context& context);
 
 // Files: cases_files.cpp.
 /// S3: FLIP of a truck at 1e4 and 1e6 against the origin; at 1e6 shown only where the importer warns.
@@ -94,8 +108,9 @@ std::vector<Number> measureExtremeValues(const Context& context);
 std::vector<Number> measureDegenerateLights(const Context& context);
 /// S22: values that differ from one run to the next, and by the length of dispatches.
 std::vector<Number> measureDeterminism(const Context& context);
-/// S22: pixels that fail the Z-test against ray query.
+/// S22: pixels that fail the Z-test against another tracer, and pixels that differ from it on the same paths.
 std::vector<Number> measureAgainstQuery(const Context& context);
+std::vector<Number> measureAgainstPipeline(const Context& context);
 /// S23: messages of validation, on a device of its own.
 std::vector<Number> measureValidation(const Context& context);
 /// S25: the longest submission.

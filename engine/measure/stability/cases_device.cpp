@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "engine/core/error.h"
 #include "engine/core/stopwatch.h"
+#include "engine/measure/difference_map.h"
 #include "engine/measure/image_error.h"
 #include "engine/measure/stability/cases.h"
 #include "engine/measure/stability/ray_sets.h"
@@ -36,12 +38,10 @@ Scene roomScene() {
 Number differenceNumber(const std::string& what, const FilmImage& a, const FilmImage& b) {
     size_t different = 0;
     for (size_t i = 0; i < a.mean.pixels.size(); ++i) different += a.mean.pixels[i] == b.mean.pixels[i] ? 0u : 1u;
-    return {"values that differ: " + what,
-            static_cast<double>(different),
-            0.0,
-            "values",
-            "of " + std::to_string(a.mean.pixels.size()),
-            std::nullopt};
+    Number number =
+        countOf("values that differ: " + what, different, "values", "of " + std::to_string(a.mean.pixels.size()));
+    if (!number.passes()) number.picture = heatPicture(relativeDifference(a.mean, b.mean), 0.0, 0.01);
+    return number;
 }
 
 Bitmap varianceOfMean(const FilmImage& film) {
@@ -140,19 +140,61 @@ LitScene negativeLight() {
 /// Non-finite pixels, and whether light is where it should be and nowhere else; of the kernel that the scene needs, and
 /// of the one with everything.
 void measureFinite(const Context& context, const LitScene& lit, std::vector<Number>& numbers) {
-    double nonFinite = 0.0, wrongLight = 0.0;
+    Number nonFinite =
+        countOf("pixels with a sample that is not finite: " + lit.what, 0, "pixels", "of 256 in each image");
+    Number wrongLight =
+        countOf(std::string(lit.lit ? "images without light: " : "images with light: ") + lit.what, 0, "images", "");
     for (const char* needs : {"scene", "full"}) {
         if (context.quick && std::string_view(needs) == "full") continue;
         RenderSettings settings = smallImage(context.settings, 16, 32, 8);
         settings.needs = needs;
         const FilmImage film = renderFilm(context, lit.scene, settings);
-        nonFinite += static_cast<double>(film.nonFinitePixels);
-        wrongLight += (estimateOf(film).mean > 0.0) == lit.lit ? 0.0 : 1.0;
+        nonFinite.value += static_cast<double>(film.nonFinitePixels);
+        wrongLight.value += (estimateOf(film).mean > 0.0) == lit.lit ? 0.0 : 1.0;
+        showImage(nonFinite, lit.scene, settings, film);
+        showImage(wrongLight, lit.scene, settings, film);
     }
-    numbers.push_back({"pixels with a sample that is not finite: " + lit.what, nonFinite, 0.0, "pixels",
-                       "of 256 in each image", std::nullopt});
-    numbers.push_back({std::string(lit.lit ? "images without light: " : "images with light: ") + lit.what, wrongLight,
-                       0.0, "images", "", std::nullopt});
+    numbers.push_back(std::move(nonFinite));
+    numbers.push_back(std::move(wrongLight));
+}
+
+/// Pixels with a channel that is further apart than a ten-thousandth.
+size_t differentPixels(const Bitmap& a, const Bitmap& b) {
+    std::set<size_t> different;
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        if (std::abs(a.pixels[i] - b.pixels[i]) > 1e-4f * std::abs(b.pixels[i])) different.insert(i / 3);
+    return different.size();
+}
+
+/// The context's tracer against another one: by the same paths, where what differs is a hit, and by others, since the
+/// same would hide a difference of the means.
+std::vector<Number> measureAgainst(const Context& context, const std::string& tracer) {
+    const std::string missing = missingForTracer(tracer, context.device.description());
+    if (!missing.empty()) throw Skipped("the device lacks " + missing);
+    const Scene scene = roomScene();
+    RenderSettings settings = smallImage(context.settings, 32, 64, 6);
+    const FilmImage ours = renderFilm(context, scene, settings);
+    settings.tracer = tracer;
+    const FilmImage same = renderFilm(context, scene, settings);
+    settings.seed += 1;
+    const FilmImage theirs = renderFilm(context, scene, settings);
+    const ZTest test = zTest(ours.mean, varianceOfMean(ours), theirs.mean, varianceOfMean(theirs));
+    Number z{"pixels that fail the Z-test against " + tracer,
+             1.0 - test.passFraction,
+             0.0025,
+             "of pixels",
+             "of " + std::to_string(test.pixels) + ", other seeds, .01 with Sidak's correction",
+             std::nullopt};
+    if (!z.passes()) z.picture = heatPicture(zScores(ours, theirs), 0.0, 8.0);
+    Number paths{
+        "pixels that differ from " + tracer + " on the same paths",
+        static_cast<double>(differentPixels(ours.mean, same.mean)),
+        kNoLimit,
+        "pixels",
+        "of " + std::to_string(test.pixels) + ", by more than 1e-4: hits at other places or on other triangles",
+        std::nullopt};
+    paths.picture = heatPicture(relativeDifference(ours.mean, same.mean), 0.0, 0.01);
+    return {std::move(z), std::move(paths)};
 }
 
 /// Traces and renders a little by each tracer that the device runs.
@@ -198,19 +240,9 @@ std::vector<Number> measureDeterminism(const Context& context) {
     return numbers;
 }
 
-std::vector<Number> measureAgainstQuery(const Context& context) {
-    const std::string missing = missingForTracer("query", context.device.description());
-    if (!missing.empty()) throw Skipped("the device lacks " + missing);
-    const Scene scene = roomScene();
-    RenderSettings settings = smallImage(context.settings, 32, 64, 6);
-    const FilmImage ours = renderFilm(context, scene, settings);
-    settings.tracer = "query";
-    settings.seed += 1;  // the same paths would hide a difference of the means
-    const FilmImage theirs = renderFilm(context, scene, settings);
-    const ZTest test = zTest(ours.mean, varianceOfMean(ours), theirs.mean, varianceOfMean(theirs));
-    return {{"pixels that fail the Z-test against ray query", 1.0 - test.passFraction, 0.0025, "of pixels",
-             "of " + std::to_string(test.pixels) + ", other seeds, .01 with Sidak's correction", std::nullopt}};
-}
+std::vector<Number> measureAgainstQuery(const Context& context) { return measureAgainst(context, "query"); }
+
+std::vector<Number> measureAgainstPipeline(const Context& context) { return measureAgainst(context, "pipeline"); }
 
 std::vector<Number> measureValidation(const Context& context) {
     const double before = context.device.validationMessageCount();
@@ -233,11 +265,22 @@ std::vector<Number> measureSlowDispatch(const Context& context) {
     settleEnvironment(scene, settings);
     Renderer renderer(context.device, scene, settings);
     const Stopwatch watch;
-    while (watch.seconds() < (context.quick ? 5.0 : 60.0) && renderer.step()) context.check();
-    return {
-        {"longest submission, the house at " + std::to_string(settings.width) + " x " + std::to_string(settings.height),
-         renderer.times().longestDispatch, 1.0, "s",
-         std::to_string(static_cast<int>(settings.sliceMs)) + " ms are aimed at", std::nullopt}};
+    PlotSeries steps{"", {}, false};
+    double before = 0.0;
+    while (watch.seconds() < (context.quick ? 5.0 : 60.0) && renderer.step()) {
+        context.check();
+        steps.points.emplace_back(watch.seconds(), 1e3 * (renderer.times().device - before));
+        before = renderer.times().device;
+    }
+    Number number{
+        "longest submission, the house at " + std::to_string(settings.width) + " x " + std::to_string(settings.height),
+        renderer.times().longestDispatch,
+        1.0,
+        "s",
+        std::to_string(static_cast<int>(settings.sliceMs)) + " ms are aimed at",
+        std::nullopt};
+    number.plot = Plot{"seconds since the start", "ms of a step", false, true, {std::move(steps)}};
+    return {std::move(number)};
 }
 
 }  // namespace raylab::stability

@@ -41,22 +41,17 @@ std::vector<shared::RayData> raysFor(const Closed& closed, size_t count) {
 
 Number leakNumber(const Context& context, const Closed& closed, std::span<const shared::RayData> rays,
                   std::span<const shared::HitData> hits) {
-    std::vector<glm::dvec2> leaks;
     std::vector<size_t> wrong;
-    for (size_t i = 0; i < rays.size(); ++i) {
-        if (!(hits[i].t < 0.0f)) continue;
-        leaks.push_back(onMap(glm::dvec3(rays[i].direction)));
-        wrong.push_back(i);
-    }
+    for (size_t i = 0; i < rays.size(); ++i)
+        if (hits[i].t < 0.0f) wrong.push_back(i);
     const bool isFar = closed.centre != glm::vec3(0.0f);
     Number number{"leaks from a " + closed.what + (isFar ? ", far away" : ", at the origin"),
-                  static_cast<double>(leaks.size()) / static_cast<double>(rays.size()),
+                  static_cast<double>(wrong.size()) / static_cast<double>(rays.size()),
                   isFar ? kAllowedFarAway : 0.0,
                   "of rays",
-                  std::to_string(leaks.size()) + " of " + std::to_string(rays.size()),
+                  std::to_string(wrong.size()) + " of " + std::to_string(rays.size()),
                   std::nullopt};
-    if (!number.passes()) number.picture = scatterPicture(leaks);
-    if (!wrong.empty()) number.evidence = rayEvidence(sceneOf(closed.mesh), context.settings, rays, wrong);
+    showWrongRays(number, sceneOf(closed.mesh), context.settings, rays, wrong);
     return number;
 }
 
@@ -111,9 +106,13 @@ std::vector<shared::RayData> raysThroughSquare(size_t count) {
     return rays;
 }
 
-Number squareNumber(const std::string& what, const std::vector<glm::dvec2>& where, size_t rays) {
-    Number number{what, static_cast<double>(where.size()), 0.0, "rays", "of " + std::to_string(rays), std::nullopt};
-    if (!number.passes()) number.picture = scatterPicture(where);
+/// `wrong`: rays, shown by where they meet the square.
+Number squareNumber(const Context& context, const std::string& what, const TestMesh& mesh,
+                    std::span<const shared::RayData> rays, const std::vector<size_t>& wrong) {
+    Number number = rayNumber(what, sceneOf(mesh), context.settings, rays, wrong, rays.size());
+    std::vector<glm::dvec2> targets;
+    for (const size_t i : wrong) targets.push_back((glm::dvec2(rays[i].origin + rays[i].direction) + 1.0) / 2.0);
+    if (!number.passes()) number.picture = scatterPicture(targets);
     return number;
 }
 
@@ -185,21 +184,17 @@ std::vector<Number> measureSingleHit(const Context& context) {
     RayCaster caster(context.device, sceneOf(mesh), context.settings),
         reversedCaster(context.device, sceneOf(reversed), context.settings);
     const std::vector<shared::HitData> first = caster.closest(rays), other = reversedCaster.closest(rays);
-    std::vector<glm::dvec2> targets;
-    for (size_t i = 0; i < rays.size(); ++i) {
-        targets.push_back((glm::dvec2(rays[i].origin + rays[i].direction) + 1.0) / 2.0);
-        rays[i].tMin = std::max(first[i].t, 0.0f);
-    }
+    for (size_t i = 0; i < rays.size(); ++i) rays[i].tMin = std::max(first[i].t, 0.0f);
     const std::vector<shared::HitData> behind = caster.occluded(rays);
-    std::vector<glm::dvec2> misses, doubles;
+    std::vector<size_t> misses, doubles;
     for (size_t i = 0; i < rays.size(); ++i) {
         if (first[i].t < 0.0f)
-            misses.push_back(targets[i]);
+            misses.push_back(i);
         else if (behind[i].t >= 0.0f || first[i].primitive + other[i].primitive + 1 != mesh.triangles.size())
-            doubles.push_back(targets[i]);
+            doubles.push_back(i);
     }
-    return {squareNumber("misses", misses, rays.size()),
-            squareNumber("double hits", doubles, rays.size()),
+    return {squareNumber(context, "misses", mesh, rays, misses),
+            squareNumber(context, "double hits", mesh, rays, doubles),
             {"shortest edge of the cut square", static_cast<double>(shortestEdge(mesh)), 1.5e-6, "units", "",
              std::nullopt}};
 }
@@ -222,7 +217,8 @@ std::vector<Number> measureAxisRaysAgainst(const Context& context, const AxisAns
     if (context.isTracedByDriver())
         return {axisNumber(context, "rays along axes that are wrong", expected.rays,
                            wrongRays(scene, expected.rays, hits, expected.closest))};
-    return {axisNumber(context, "closest hits that are not brute force's", expected.rays, differentHits(hits, expected.closest)),
+    return {axisNumber(context, "closest hits that are not brute force's", expected.rays,
+                       differentHits(hits, expected.closest)),
             axisNumber(context, "shadow rays that are not brute force's", expected.rays,
                        differentHits(caster.occluded(expected.rays), expected.occluded))};
 }

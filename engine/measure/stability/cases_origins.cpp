@@ -224,14 +224,42 @@ Scene leafScene() {
     return scene;
 }
 
-/// Whether light comes through a shade so far below a lamp, as a part of the lamp's distance.
-bool shadeLeaks(const Context& context, float gap) {
+constexpr int kTerminatorSize = 128;
+
+/// A smooth ball of triangles below a sun from the right.
+Scene terminatorScene(uint32_t rings) {
+    Scene scene;
+    addMesh(scene, smoothBall(addMaterial(scene, lambert(1.0f)), 1.0f, glm::vec3(0.0f), rings));
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = glm::normalize(glm::vec3(-1.0f, -0.2f, 0.0f));
+    sun.intensity = glm::vec3(static_cast<float>(kPi));
+    scene.lights = {sun};
+    lookAt(scene, {0.0f, 0.0f, 5.0f}, glm::vec3(0.0f), 0.24f);
+    return scene;
+}
+
+/// Between neighbours in a row, over the brightest pixel.
+double largestStep(const FilmImage& film) {
+    double largest = 0.0, step = 0.0;
+    for (int y = 0; y < film.mean.height; ++y)
+        for (int x = 1; x < film.mean.width; ++x) {
+            const double here = static_cast<double>(*film.mean.at(x, y)),
+                         before = static_cast<double>(*film.mean.at(x - 1, y));
+            largest = std::max(largest, here);
+            step = std::max(step, std::abs(here - before));
+        }
+    return step / largest;
+}
+
+/// Light through a shade so far below a lamp, as a part of the lamp's distance.
+double lightThroughShade(const Context& context, float gap) {
     Scene scene;
     addMesh(scene, floorQuad(addMaterial(scene, lambert(0.8f)), 10.0f));
     addMesh(scene, ceilingQuad(addMaterial(scene, lamp(1e4f)), 1.0f, 100.0f));
     addMesh(scene, ceilingQuad(addMaterial(scene, lambert(0.0f)), 3.0f, 100.0f * (1.0f - gap)));
     lookAtPoint(scene, {0.0f, 5.0f, 5.0f}, glm::vec3(0.0f));
-    return estimateOf(renderFilm(context, scene, smallImage(context.settings, 8, 16, 1))).mean > 0.0;
+    return estimateOf(renderFilm(context, scene, smallImage(context.settings, 8, 16, 1))).mean;
 }
 
 }  // namespace
@@ -252,21 +280,21 @@ std::vector<Number> measurePlanes(const Context& context) {
 std::vector<Number> measureRandomTriangles(const Context& context) {
     Random random(41);
     double occluded = 0.0, rays = 0.0, triangles = 0.0;
-    std::optional<Bitmap> picture;
-    const int64_t size = context.quick ? 32 : 64;
+    Number shown{"", 0.0, 0.0, "", "", std::nullopt};
+    const RenderSettings settings = occlusionImage(context, context.quick ? 32 : 64);
     for (int i = 0; i < (context.quick ? 4 : 16); ++i) {
-        const FilmImage film =
-            renderFilm(context, triangleScene(randomTriangle(random)), occlusionImage(context, size));
+        const Scene scene = triangleScene(randomTriangle(random));
+        const FilmImage film = renderFilm(context, scene, settings);
         const double here = occludedRays(film);
         occluded += here;
         triangles += here > 0.0 ? 1.0 : 0.0;
         rays += static_cast<double>(film.rays) - static_cast<double>(film.mean.pixelCount());
-        if (!picture) countWrongPixels(film, 1.0, 1e-3, picture);
+        judgePixels(shown, scene, settings, film, 1.0, 1e-3);
     }
     return {{"rays that hit the triangle they leave, of 10^-8 to 10^8", occluded, 0.0, "rays",
              "of " + std::to_string(static_cast<uint64_t>(rays)) + ", on " +
                  std::to_string(static_cast<int>(triangles)) + " triangles",
-             picture}};
+             std::move(shown.picture), std::move(shown.evidence)}};
 }
 
 std::vector<Number> measureLowBoxes(const Context& context) {
@@ -277,29 +305,21 @@ std::vector<Number> measureLowBoxes(const Context& context) {
 }
 
 std::vector<Number> measureTerminator(const Context& context) {
-    Scene scene;
-    const TestMesh ball = sphere(1.0f, 8, 16, glm::vec3(0.0f));
-    Mesh mesh = meshOf(ball, addMaterial(scene, lambert(1.0f)));
-    for (const glm::vec3& p : mesh.positions) mesh.normals.push_back(glm::normalize(p));
-    addMesh(scene, std::move(mesh));
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = glm::normalize(glm::vec3(-1.0f, -0.2f, 0.0f));
-    sun.intensity = glm::vec3(static_cast<float>(kPi));
-    scene.lights = {sun};
-    lookAt(scene, {0.0f, 0.0f, 5.0f}, glm::vec3(0.0f), 0.24f);
-    const RenderSettings settings = smallImage(context.settings, 128, 16, 1);
+    const RenderSettings settings = smallImage(context.settings, kTerminatorSize, 16, 1);
+    const Scene scene = terminatorScene(8);
     const FilmImage film = renderFilm(context, scene, settings);
-    double largest = 0.0, jump = 0.0;
-    for (int y = 0; y < 128; ++y)
-        for (int x = 1; x < 128; ++x) {
-            const double here = static_cast<double>(*film.mean.at(x, y)),
-                         before = static_cast<double>(*film.mean.at(x - 1, y));
-            largest = std::max(largest, here);
-            jump = std::max(jump, std::abs(here - before));
-        }
-    return {{"largest step of brightness across the terminator of a ball of 16 x 8", jump / largest, kNoLimit,
-             "of the maximum", "a smooth ball has .02", displayed(film.mean), imageEvidence(scene, settings)}};
+    Number number{"largest step of brightness across the terminator of a ball of 16 x 8",
+                  largestStep(film),
+                  kNoLimit,
+                  "of the maximum",
+                  "a smooth ball has .02",
+                  std::nullopt};
+    showImage(number, scene, settings, film);
+    PlotSeries steps{"", {{8.0, number.value}}};
+    for (const uint32_t rings : {16u, 32u, 64u})
+        steps.points.emplace_back(rings, largestStep(renderFilm(context, terminatorScene(rings), settings)));
+    number.plot = Plot{"rings of the ball", "largest step, of the maximum", true, true, {std::move(steps)}};
+    return {std::move(number)};
 }
 
 std::vector<Number> measureLeaves(const Context& context) {
@@ -333,10 +353,15 @@ std::vector<Number> measureScaledInstances(const Context& context) {
 
 std::vector<Number> measureShades(const Context& context) {
     double leaks = 0.0;
-    for (const float gap : {1e-2f, 1e-3f, 2e-4f, 5e-5f, 1e-5f})
-        if (shadeLeaks(context, gap)) leaks = std::max(leaks, static_cast<double>(gap));
-    return {{"a shade this close to its lamp lets light through", leaks, 1e-4, "of distance",
-             "shadow rays end 1e-4 of the way before the light", std::nullopt}};
+    PlotSeries light{"", {}};
+    for (const float gap : {1e-2f, 1e-3f, 2e-4f, 5e-5f, 1e-5f}) {
+        light.points.emplace_back(gap, lightThroughShade(context, gap));
+        if (light.points.back().y > 0.0) leaks = std::max(leaks, static_cast<double>(gap));
+    }
+    Number number{"a shade this close to its lamp lets light through", leaks,       1e-4, "of distance",
+                  "shadow rays end 1e-4 of the way before the light",  std::nullopt};
+    number.plot = Plot{"gap, of the lamp's distance", "radiance below the shade", true, false, {std::move(light)}};
+    return {std::move(number)};
 }
 
 }  // namespace raylab::stability

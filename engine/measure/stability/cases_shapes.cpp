@@ -108,17 +108,17 @@ double share(size_t part, size_t whole) {
 }
 
 /// The share of hits that no rounding in float excuses (HitOracle).
-Number wrongInFloat(const std::string& what, const Scene& scene, std::span<const shared::RayData> rays,
-                    std::span<const shared::HitData> hits) {
+Number wrongInFloat(const Context& context, const std::string& what, const Scene& scene,
+                    std::span<const shared::RayData> rays, std::span<const shared::HitData> hits) {
     const HitOracle oracle(scene);
-    std::vector<glm::dvec2> where;
+    std::vector<size_t> wrong;
     for (uint32_t i = 0; i < rays.size(); ++i) {
         const Verdict verdict = oracle.judgeClosest(rays[i], i, hits[i], hits[i]).verdict;
-        if (verdict == Verdict::neither) where.push_back(onMap(glm::dvec3(rays[i].direction)));
+        if (verdict == Verdict::neither) wrong.push_back(i);
     }
-    Number number{what,      share(where.size(), rays.size()),  kAllowedWrong,
-                  "of rays", ofText(where.size(), rays.size()), std::nullopt};
-    if (!number.passes()) number.picture = scatterPicture(where);
+    Number number{what,      share(wrong.size(), rays.size()),  kAllowedWrong,
+                  "of rays", ofText(wrong.size(), rays.size()), std::nullopt};
+    showWrongRays(number, scene, context.settings, rays, wrong);
     return number;
 }
 
@@ -127,37 +127,44 @@ Number fileNumber(const Context& context, const std::string& file, const std::st
     makeSolid(scene);
     const std::vector<shared::RayData> rays = randomRays(scene, context.rays(100'000), 151);
     RayCaster caster(context.device, scene, context.settings);
-    return wrongInFloat("hits on " + what + " that no rounding excuses", scene, rays, caster.closest(rays));
+    return wrongInFloat(context, "hits on " + what + " that no rounding excuses", scene, rays, caster.closest(rays));
 }
 
-Number oracleNumber(const std::string& what, const OracleCase& oracle, std::span<const shared::HitData> hits) {
-    std::vector<glm::dvec2> where;
+Number oracleNumber(const Context& context, const std::string& what, const Scene& scene, const OracleCase& oracle,
+                    std::span<const shared::HitData> hits) {
+    std::vector<size_t> wrong;
     size_t decidable = 0;
     for (size_t i = 0; i < hits.size(); ++i) {
         if (!isDecidable(oracle.expected[i], oracle.margin)) continue;
         ++decidable;
-        if (!oracle.isHit(i, hits[i])) where.push_back(onMap(glm::dvec3(oracle.rays[i].direction)));
+        if (!oracle.isHit(i, hits[i])) wrong.push_back(i);
     }
     if (3 * decidable <= hits.size()) throw Error(what + ": too few rays decide anything");
-    Number number{what, share(where.size(), decidable), 0.0, "of rays", ofText(where.size(), decidable), std::nullopt};
-    if (!number.passes()) number.picture = scatterPicture(where);
+    Number number{what, share(wrong.size(), decidable), 0.0, "of rays", ofText(wrong.size(), decidable), std::nullopt};
+    showWrongRays(number, scene, context.settings, oracle.rays, wrong);
     return number;
 }
 
-/// Of the hits on the right triangle, those at a wrong place.
+constexpr size_t kMostPlotted = 800;
+
+/// Of the hits on the right triangle, those at a wrong place. The plot has all, in double precision's distance.
 Number distanceNumber(const std::string& what, const OracleCase& oracle, std::span<const shared::HitData> hits) {
     size_t wrong = 0, right = 0;
     double worst = 0.0;
+    PlotSeries errors{"", {}, false};
     for (size_t i = 0; i < hits.size(); ++i) {
         const OracleHit& expected = oracle.expected[i];
         if (!expected.hit() || hits[i].t < 0.0f || !oracle.isHit(i, hits[i])) continue;
         const double error = std::abs(static_cast<double>(hits[i].t) - expected.t);
         ++(error > oracle.distanceTolerance(i) ? wrong : right);
         worst = std::max(worst, error / expected.t);
+        if (errors.points.size() < kMostPlotted) errors.points.emplace_back(expected.t, error / expected.t);
     }
     std::ostringstream note;
     note << ofText(wrong, wrong + right) << ", at worst by " << std::setprecision(2) << worst << " of it";
-    return {what, share(wrong, wrong + right), kAllowedWrong, "of hits", note.str(), std::nullopt};
+    Number number{what, share(wrong, wrong + right), kAllowedWrong, "of hits", note.str(), std::nullopt};
+    number.plot = Plot{"distance t", "relative error of t", true, true, {std::move(errors)}};
+    return number;
 }
 
 /// As far as ties: the ids that the oracle finds at unit scale are those of the scaled scene.
@@ -171,8 +178,34 @@ Number scaledNumber(const Context& context, const OracleCase& oracle, float scal
     if (twoLevels) settings.flattenLimit = 0;
     RayCaster caster(context.device, scene, settings);
     return oracleNumber(
+        context,
         "wrong hits at scale " + std::string(scale < 1.0f ? "1e-4" : "1e4") + (twoLevels ? ", below instances" : ""),
-        oracle, caster.closest(rays));
+        instancedSoup(), oracle, caster.closest(rays));
+}
+
+constexpr float kFarBall = 1e3f;
+
+/// From so far away at the ball and closely past it.
+std::vector<shared::RayData> raysFromAway(float away, size_t count) {
+    Random random(271);
+    std::vector<shared::RayData> rays;
+    for (size_t i = 0; i < count; ++i) {
+        const glm::vec3 origin = away * random.direction();
+        rays.push_back(makeRay(origin, glm::normalize(1.2f * kFarBall * random.inCube(-1.0f, 1.0f) - origin)));
+    }
+    return rays;
+}
+
+/// Of the distances to the triangles that double precision hits too.
+double largestError(const Scene& scene, std::span<const shared::RayData> rays, std::span<const shared::HitData> hits) {
+    const HitOracle oracle(scene);
+    double worst = 0.0;
+    for (uint32_t i = 0; i < rays.size(); ++i) {
+        const TrueHit truth = oracle.closest(rays[i], i);
+        if (hits[i].t < 0.0f || !truth.hit() || truth.primitive != hits[i].primitive) continue;
+        worst = std::max(worst, std::abs(static_cast<double>(hits[i].t) - truth.t));
+    }
+    return worst;
 }
 
 }  // namespace
@@ -187,11 +220,11 @@ std::vector<Number> measureNeedles(const Context& context) {
     for (const shared::HitData& hit : hits) nonFinite += isFinite(hit) ? 0u : 1u;
     const OracleCase oracle(scene, awayFromEdges(mesh, rays), kEdgeMargin);
     const std::vector<shared::HitData> away = caster.closest(oracle.rays);
-    Number exact = oracleNumber("hits on needles 1:1e5 that are not exact arithmetic's", oracle, away);
+    Number exact = oracleNumber(context, "hits on needles 1:1e5 that are not exact arithmetic's", scene, oracle, away);
     exact.limit = kAllowedWrong;
     exact.note += " more than .2 of a needle's width off its edges, on it and as seen along the ray";
     const size_t skipped = caster.prepared().tracer->traceData().skipped;
-    return {wrongInFloat("hits on needles 1:1e5 that no rounding excuses", scene, rays, hits),
+    return {wrongInFloat(context, "hits on needles 1:1e5 that no rounding excuses", scene, rays, hits),
             std::move(exact),
             distanceNumber("distances of needles off by 1e-4 and more", oracle, away),
             {"non-finite hits on needles", static_cast<double>(nonFinite), 0.0, "rays", "", std::nullopt},
@@ -220,32 +253,31 @@ std::vector<Number> measureScales(const Context& context) {
     addMesh(scene, floorQuad(0, 1e4f));
     const OracleCase bead(scene, std::move(rays), 1e-3);
     RayCaster caster(context.device, scene, context.settings);
-    numbers.push_back(
-        oracleNumber("wrong hits on a bead of 1e-3 beside a plane of 1e4", bead, caster.closest(bead.rays)));
+    numbers.push_back(oracleNumber(context, "wrong hits on a bead of 1e-3 beside a plane of 1e4", scene, bead,
+                                   caster.closest(bead.rays)));
     return numbers;
 }
 
 std::vector<Number> measureFarRays(const Context& context) {
-    constexpr float kAway = 1e6f;
-    const Scene scene = sceneOf(sphere(1e3f, 24, 48, glm::vec3(0.0f)));
-    Random random(271);
-    std::vector<shared::RayData> rays;
-    for (size_t i = 0; i < context.rays(100'000); ++i) {
-        const glm::vec3 origin = kAway * random.direction();
-        rays.push_back(makeRay(origin, glm::normalize(1.2e3f * random.inCube(-1.0f, 1.0f) - origin)));
-    }
+    const Scene scene = sceneOf(sphere(kFarBall, 24, 48, glm::vec3(0.0f)));
+    const std::vector<shared::RayData> rays = raysFromAway(1e6f, context.rays(100'000));
     RayCaster caster(context.device, scene, context.settings);
     const std::vector<shared::HitData> hits = caster.closest(rays);
-    const HitOracle oracle(scene);
-    double worst = 0.0;
-    for (uint32_t i = 0; i < rays.size(); ++i) {
-        const TrueHit truth = oracle.closest(rays[i], i);
-        if (hits[i].t < 0.0f || !truth.hit() || truth.primitive != hits[i].primitive) continue;
-        worst = std::max(worst, std::abs(static_cast<double>(hits[i].t) - truth.t));
+    Plot plot{"distance of the rays' origins", "error of t", true, true, {{"largest error", {}}, {"an ulp of t", {}}}};
+    for (const float away : {1e4f, 1e5f, 1e6f, 1e7f}) {
+        const std::vector<shared::RayData> some = raysFromAway(away, 2000);
+        plot.series[0].points.emplace_back(away, largestError(scene, some, caster.closest(some)));
+        plot.series[1].points.emplace_back(away, std::nextafter(away, 1e30f) - away);
     }
-    return {wrongInFloat("hits from 1e6 away on a ball of 1e3 that no rounding excuses", scene, rays, hits),
-            {"largest error of t at 1e6", worst, kNoLimit, "scene units", "a unit in the last place is 0.0625",
-             std::nullopt}};
+    Number error{"largest error of t at 1e6",
+                 largestError(scene, rays, hits),
+                 kNoLimit,
+                 "scene units",
+                 "a unit in the last place is 0.0625",
+                 std::nullopt};
+    error.plot = std::move(plot);
+    return {wrongInFloat(context, "hits from 1e6 away on a ball of 1e3 that no rounding excuses", scene, rays, hits),
+            std::move(error)};
 }
 
 }  // namespace raylab::stability

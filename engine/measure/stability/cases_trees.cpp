@@ -106,9 +106,12 @@ void measureLost(const Context& context, const Scene& scene, std::vector<shared:
     RayCaster caster(context.device, scene, context.settings);
     const Agreement agreement = compareWithOracle(caster, oracle);
     if (agreement.hits <= oracle.rays.size() / 10) throw Error(what + ": too few rays hit to tell anything");
-    numbers.push_back(countOf("wrong hits: " + what, agreement.wrongHits, "rays", ofText(agreement.decidable)));
-    numbers.push_back(
-        countOf("wrong shadow rays: " + what, agreement.wrongShadows, "rays", ofText(3 * agreement.decidable)));
+    numbers.push_back(rayNumber("wrong hits: " + what, scene, context.settings, oracle.rays, agreement.raysOfHits,
+                                agreement.decidable));
+    Number shadows =
+        countOf("wrong shadow rays: " + what, agreement.wrongShadows, "rays", ofText(3 * agreement.decidable));
+    showWrongRays(shadows, scene, context.settings, oracle.rays, agreement.raysOfShadows);
+    numbers.push_back(std::move(shadows));
     if (!context.hasTree()) return;
     uint32_t high = 0;
     for (const shared::RayCounts& counts : caster.count(oracle.rays, false).counts)
@@ -136,8 +139,12 @@ Number instancesNumber(const Context& context, const OracleCase& oracle, const S
     RayCaster caster(context.device, scene, context.settings);
     const Agreement agreement = compareWithOracle(caster, oracle);
     if (agreement.hits <= oracle.rays.size() / 20) throw Error(what + ": too few rays hit to tell anything");
-    return countOf("wrong hits and shadows: " + what, agreement.wrongHits + agreement.wrongShadows, "rays",
-                   ofText(agreement.decidable));
+    Number number = countOf("wrong hits and shadows: " + what, agreement.wrongHits + agreement.wrongShadows, "rays",
+                            ofText(agreement.decidable));
+    std::vector<size_t> wrong = agreement.raysOfHits;
+    wrong.insert(wrong.end(), agreement.raysOfShadows.begin(), agreement.raysOfShadows.end());
+    showWrongRays(number, scene, context.settings, oracle.rays, wrong);
+    return number;
 }
 
 void measureBothWays(const Context& context, const Scene& scene, size_t rays, uint32_t seed, double margin,
@@ -205,9 +212,13 @@ Number largeNumber(const Context& context) {
     }
     RayCaster caster(context.device, scene, context.settings);
     const std::vector<shared::HitData> hits = caster.closest(rays);
-    size_t wrong = 0;
-    for (size_t i = 0; i < hits.size(); ++i) wrong += hits[i].t == 1.0f && hits[i].primitive == expected[i] ? 0u : 1u;
-    return countOf("wrong hits on 134 MiB of triangles", wrong, "rays", ofText(rays.size()));
+    std::vector<glm::dvec2> wrong;
+    for (size_t i = 0; i < hits.size(); ++i)
+        if (hits[i].t != 1.0f || hits[i].primitive != expected[i])
+            wrong.push_back(glm::dvec2(rays[i].origin.x, rays[i].origin.z) / static_cast<double>(kCells));
+    Number number = countOf("wrong hits on 134 MiB of triangles", wrong.size(), "rays", ofText(rays.size()));
+    if (!number.passes()) number.picture = scatterPicture(wrong);
+    return number;
 }
 
 }  // namespace
@@ -228,15 +239,20 @@ std::vector<Number> measureDuplicates(const Context& context) {
         rays.push_back(makeRay({random.uniform(-0.4f, 0.9f), random.uniform(-0.4f, 0.9f), 2.0f}, {0, 0, -1}));
     RayCaster caster(context.device, sceneOf(mesh), context.settings);
     size_t notLowest = 0, notThere = 0;
+    PlotSeries ids{"", {}, false};
     for (const shared::HitData& hit : caster.closest(rays)) {
+        ids.points.emplace_back(ids.points.size(), hit.primitive);
         notThere += std::abs(hit.t - 2.0f) <= 1e-6f && hit.primitive < mesh.triangles.size() ? 0u : 1u;
         notLowest += hit.primitive == 0 ? 0u : 1u;
     }
+    Number lowest =
+        countOf("hits that are not of the lowest id", notLowest, "rays",
+                ofText(rays.size()) + (context.isTracedByDriver() ? "; the driver breaks ties as it likes" : ""));
+    if (!lowest.passes()) lowest.plot = Plot{"ray", "id of the triangle", false, false, {std::move(ids)}};
     return {{"time to build 10,000 identical triangles", seconds, 5.0, "s", "", std::nullopt},
             countOf("trees that differ, by 1 to 4 threads", different, "of 9", ""),
             countOf("hits that are not where the triangles are", notThere, "rays", ofText(rays.size())),
-            countOf("hits that are not of the lowest id", notLowest, "rays",
-                    ofText(rays.size()) + (context.isTracedByDriver() ? "; the driver breaks ties as it likes" : ""))};
+            std::move(lowest)};
 }
 
 std::vector<Number> measureTreeDepth(const Context& context) {

@@ -89,9 +89,12 @@ Agreement compareWithOracle(RayCaster& caster, const OracleCase& oracle) {
         const double error = std::abs(static_cast<double>(answers.closest[i].t) - expected.t);
         a.wrongHits += same ? 0u : 1u;
         a.wrongDistances += same && expected.hit() && error > oracle.distanceTolerance(i) ? 1u : 0u;
+        const size_t shadowsBefore = a.wrongShadows;
         a.wrongShadows += (answers.occluded[i].t >= 0.0f) != expected.hit() ? 1u : 0u;
         a.wrongShadows += expected.hit() && answers.occludedBefore[i].t >= 0.0f ? 1u : 0u;
         a.wrongShadows += expected.hit() && answers.occludedBehind[i].t < 0.0f ? 1u : 0u;
+        if (!same) a.raysOfHits.push_back(i);
+        if (a.wrongShadows > shadowsBefore) a.raysOfShadows.push_back(i);
     }
     return a;
 }

@@ -44,6 +44,8 @@ struct Agreement {
     size_t wrongHits = 0;
     size_t wrongDistances = 0;
     size_t wrongShadows = 0;
+    std::vector<size_t> raysOfHits{};     ///< whose closest hits are wrong
+    std::vector<size_t> raysOfShadows{};  ///< with a wrong any hit
 };
 
 /// Closest hits, and any hits of rays that end just before, just behind and far behind the closest one.

@@ -1,9 +1,12 @@
 #include "engine/measure/stability/render_case.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
+#include "engine/measure/statistics.h"
 #include "engine/render/lighting.h"
 #include "engine/render/renderer.h"
 #include "engine/render/tonemap.h"
@@ -104,6 +107,43 @@ glm::dvec2 onMap(const glm::dvec3& direction) {
     const glm::dvec3 d = glm::normalize(direction);
     return {0.5 + std::atan2(d.x, -d.z) / (2.0 * std::numbers::pi),
             std::acos(std::clamp(d.y, -1.0, 1.0)) / std::numbers::pi};
+}
+
+void showWrongRays(Number& number, const Scene& scene, const RenderSettings& settings,
+                   std::span<const shared::RayData> rays, std::span<const size_t> wrong) {
+    if (number.passes()) return;
+    std::vector<glm::dvec2> where;
+    for (const size_t i : wrong) where.push_back(onMap(glm::dvec3(rays[i].direction)));
+    number.picture = scatterPicture(where);
+    number.evidence = rayEvidence(scene, settings, rays, wrong);
+}
+
+Number rayNumber(std::string what, const Scene& scene, const RenderSettings& settings,
+                 std::span<const shared::RayData> rays, std::span<const size_t> wrong, size_t of) {
+    Number number = countOf(std::move(what), wrong.size(), "rays", "of " + std::to_string(of));
+    showWrongRays(number, scene, settings, rays, wrong);
+    return number;
+}
+
+double logSlope(std::span<const glm::dvec2> points) {
+    std::vector<double> x, y;
+    for (const glm::dvec2& point : points) {
+        x.push_back(std::log(point.x));
+        y.push_back(std::log(point.y));
+    }
+    return fitLine(x, y).slope;
+}
+
+void showImage(Number& number, const Scene& scene, const RenderSettings& settings, const FilmImage& film) {
+    if (number.passes() && std::isfinite(number.limit)) return;
+    number.picture = displayed(film.mean);
+    number.evidence = imageEvidence(scene, settings);
+}
+
+std::string shortText(double number) {
+    std::array<char, 32> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.4g", number);
+    return buffer.data();
 }
 
 Bitmap displayed(const Bitmap& radiance) { return tonemapImage(radiance, 0.0, "filmic"); }

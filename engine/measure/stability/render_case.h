@@ -37,11 +37,28 @@ size_t countWrongPixels(const FilmImage& film, double exact, double relativeTole
 void judgePixels(Number& number, const Scene& scene, const RenderSettings& settings, const FilmImage& film,
                  double exact, double relativeTolerance);
 
+/// Slope of log y over log x by least squares.
+double logSlope(std::span<const glm::dvec2> points);
+
+/// An image of which a number without a limit speaks, or one that fails.
+void showImage(Number& number, const Scene& scene, const RenderSettings& settings, const FilmImage& film);
+
 /// Points of a picture of `size` pixels a side, (0,0) to (1,1) from its upper left corner, bright on grey.
 Bitmap scatterPicture(std::span<const glm::dvec2> points, int size = 256);
 
 /// Direction on a latitude-longitude map, for scatterPicture().
 glm::dvec2 onMap(const glm::dvec3& direction);
+
+/// Shows the rays `wrong` of a number that fails: on a map of their directions, and as evidence.
+void showWrongRays(Number& number, const Scene& scene, const RenderSettings& settings,
+                   std::span<const shared::RayData> rays, std::span<const size_t> wrong);
+
+/// A number's rays of one kind, counted; wrong ones are shown where there must be none.
+Number rayNumber(std::string what, const Scene& scene, const RenderSettings& settings,
+                 std::span<const shared::RayData> rays, std::span<const size_t> wrong, size_t of);
+
+/// Four digits.
+std::string shortText(double number);
 
 /// Radiance as it is shown, for pictures.
 Bitmap displayed(const Bitmap& radiance);

@@ -73,6 +73,12 @@ Mesh box(uint32_t material, glm::vec3 lo, glm::vec3 hi) {
     return mesh;
 }
 
+Mesh smoothBall(uint32_t material, float radius, const glm::vec3& centre, uint32_t rings) {
+    Mesh mesh = meshOf(sphere(radius, rings, 2 * rings, centre), material);
+    for (const glm::vec3& p : mesh.positions) mesh.normals.push_back(glm::normalize(p - centre));
+    return mesh;
+}
+
 Mesh meshOf(const TestMesh& mesh, uint32_t material) {
     Mesh result;
     result.material = material;

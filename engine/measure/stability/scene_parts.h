@@ -41,6 +41,9 @@ Mesh ceilingQuad(uint32_t material, float half, float y);
 /// Closed, fronts outwards.
 Mesh box(uint32_t material, glm::vec3 lo, glm::vec3 hi);
 
+/// A ball of rings by 2 * rings cells with the ball's own normals.
+Mesh smoothBall(uint32_t material, float radius, const glm::vec3& centre, uint32_t rings = 24);
+
 /// One mesh.
 Mesh meshOf(const TestMesh& mesh, uint32_t material);
 

@@ -77,6 +77,7 @@ void drawAdding(EditorContext& context, ChartPanel& p) {
     ImGui::EndDisabled();
     if (ImGui::BeginPopup("sets")) {
         for (const std::string& name : chartSetNames()) {
+            if (!missingForChartSet(name).empty()) continue;
             if (ImGui::Selectable(name.c_str())) addConfigs(context, p, {.sets = {name}, .vary = {}, .file = {}});
             notePlace(context, "chart-set-" + name);
         }
