@@ -23,6 +23,7 @@ struct MaterialTables {
     std::vector<shared::MaterialData> materials;
     std::vector<shared::TextureData> textures;
     std::vector<uint32_t> texels;
+    std::vector<uint32_t> means;  ///< of each texture: the one texel of its smallest level
 };
 
 /// Way to an emissive triangle in the tree over lights, and 1 / area.
@@ -40,6 +41,7 @@ struct LightTables {
     uint32_t environmentWidth = 0;
     uint32_t environmentHeight = 0;
     glm::vec3 environmentConstant{0.0f};
+    double environmentMean = 0.0;              ///< over the map, of its luminance by the sine of the polar angle
     std::vector<shared::LightNodeData> nodes;  ///< of the tree over lights; empty: none
     std::vector<LightTrail> trails;            ///< of the lights of a shape, then of the primitives of instances that emit
     std::vector<uint32_t> firstTrail;          ///< of each instance
@@ -64,8 +66,14 @@ GeometryData packGeometry(const Scene& scene);
 /// Where instances are when the shutter closes; empty where none moves.
 std::vector<shared::MotionData> packMotion(const Scene& scene);
 
+/// The instances of packGeometry() alone.
+std::vector<shared::InstanceData> packInstances(const Scene& scene);
+
 /// Throws Error where the textures together have more texels than 32 bits address.
 MaterialTables packMaterials(const Scene& scene);
+
+/// The materials of packMaterials() alone.
+std::vector<shared::MaterialData> packMaterialData(const Scene& scene);
 
 /// What materials say to the Phong model, one a material; isGiven = 0 where they say nothing.
 std::vector<shared::PhongData> packPhong(const Scene& scene);
@@ -99,7 +107,9 @@ void packLightTree(const Scene& scene, std::span<const float> emitted, LightTabl
 /// Whether packLights() adds the sun of the scene's sky to the punctual lights.
 bool hasSunLight(const Scene& scene, const LightConfig& config);
 
-/// `materials` gets its emission weights. `sceneRadius` weighs lights at infinity against the others.
-LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, const LightConfig& config = {});
+/// `materials` gets its emission weights; of its textures their means alone are read. `sceneRadius` weighs lights at
+/// infinity against the others. `known`: tables with the same environment, whose arrays are then not filled again.
+LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, const LightConfig& config = {},
+                       const LightTables* known = nullptr);
 
 }  // namespace raylab

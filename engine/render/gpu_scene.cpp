@@ -7,14 +7,16 @@
 #include "shaders/shared/bindings.h"
 
 namespace raylab {
-namespace {
 
+/// Where a buffer is bound, and as what.
 struct TexelBinding {
     uint32_t binding;
     const char* name;
     VkFormat format;
     size_t bytes;
 };
+
+namespace {
 
 constexpr TexelBinding kWords(uint32_t binding, const char* name) { return {binding, name, VK_FORMAT_R32G32B32A32_UINT, 16}; }
 
@@ -59,36 +61,76 @@ std::vector<glm::uvec4> albedoTables(const Scene& scene) {
 
 }  // namespace
 
-GpuScene::GpuScene(Device& device, const Scene& scene, const LightConfig& lightConfig) {
-    const auto add = [&](const TexelBinding& b, const auto& data) {
-        buffers_.push_back(
-            {b.binding, makeTexelBuffer(device, b.name, std::as_bytes(std::span(data)), b.format, b.bytes)});
-    };
-    bounds_ = sceneBounds(scene);
-    MaterialTables materials = packMaterials(scene);
-    lights_ = packLights(scene, 0.5f * diagonal(), materials, lightConfig);
-    {
-        GeometryData geometry = packGeometry(scene);
-        for (size_t i = 0; i < lights_.firstTrail.size(); ++i) geometry.instances[i].firstTrail = lights_.firstTrail[i];
-        add(kInstances, geometry.instances);
-        add(kMotion, packMotion(scene));
-        add(kTriangles, geometry.triangles);
-        add(kVertices, geometry.vertices);
-        add(kQuadrics, geometry.quadrics);
+/// Writes a buffer where its bytes are others than those it has; another buffer where their number is.
+template <class Item>
+void GpuScene::put(Device& device, const TexelBinding& what, const std::vector<Item>& items) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(items));
+    const Hash128 content = hashBytes(bytes);
+    const auto known = buffers_.find(what.binding);
+    const bool fits = known != buffers_.end() && known->second.sizeBytes == bytes.size();
+    if (fits && known->second.content == content) return;
+    if (fits) {
+        upload(device, known->second.texels.buffer, bytes);
+        known->second.content = content;
+    } else {
+        buffers_[what.binding] = {makeTexelBuffer(device, what.name, bytes, what.format, what.bytes), bytes.size(),
+                                  content};
     }
-    add(kMaterials, materials.materials);
-    add(kPhong, packPhong(scene));
-    add(kAlbedo, albedoTables(scene));
-    add(kLobes, packLobes(scene));
-    add(kLobeTextures, packLobeTextures(scene));
-    add(kTextures, materials.textures);
-    add(kTexels, materials.texels);
-    add(kEmissive, lights_.emissive);
-    add(kPunctual, lights_.punctual);
-    add(kLightNodes, lights_.nodes);
-    add(kLightTrails, lights_.trails);
-    add(kEnvironment, lights_.environment);
-    add(kAlias, lights_.environmentAlias);
+    uploadedBytes_ += bytes.size();
+}
+
+void GpuScene::update(Device& device, const Scene& scene, const LightConfig& lightConfig, const SceneParts& changed) {
+    if (changed.geometry || changed.instances) bounds_ = sceneBounds(scene);
+    MaterialTables materials;
+    if (changed.textures) {
+        materials = packMaterials(scene);
+        textureMeans_ = materials.means;
+    } else {
+        materials.materials = packMaterialData(scene);
+        materials.means = textureMeans_;
+    }
+    lights_ = packLights(scene, 0.5f * diagonal(), materials, lightConfig, changed.environment ? nullptr : &lights_);
+    putGeometry(device, scene, changed);
+    putSurfaces(device, scene, materials, changed);
+    putLights(device, changed);
+}
+
+void GpuScene::putGeometry(Device& device, const Scene& scene, const SceneParts& changed) {
+    GeometryData geometry;
+    if (changed.geometry)
+        geometry = packGeometry(scene);
+    else
+        geometry.instances = packInstances(scene);
+    for (size_t i = 0; i < lights_.firstTrail.size(); ++i) geometry.instances[i].firstTrail = lights_.firstTrail[i];
+    put(device, kInstances, geometry.instances);
+    put(device, kMotion, packMotion(scene));
+    if (!changed.geometry) return;
+    put(device, kTriangles, geometry.triangles);
+    put(device, kVertices, geometry.vertices);
+    put(device, kQuadrics, geometry.quadrics);
+}
+
+void GpuScene::putSurfaces(Device& device, const Scene& scene, const MaterialTables& materials,
+                           const SceneParts& changed) {
+    put(device, kMaterials, materials.materials);
+    put(device, kPhong, packPhong(scene));
+    put(device, kAlbedo, albedoTables(scene));
+    put(device, kLobes, packLobes(scene));
+    put(device, kLobeTextures, packLobeTextures(scene));
+    if (!changed.textures) return;
+    put(device, kTextures, materials.textures);
+    put(device, kTexels, materials.texels);
+}
+
+void GpuScene::putLights(Device& device, const SceneParts& changed) {
+    put(device, kEmissive, lights_.emissive);
+    put(device, kPunctual, lights_.punctual);
+    put(device, kLightNodes, lights_.nodes);
+    put(device, kLightTrails, lights_.trails);
+    if (changed.environment) {
+        put(device, kEnvironment, lights_.environment);
+        put(device, kAlias, lights_.environmentAlias);
+    }
     emissiveCount_ = static_cast<uint32_t>(lights_.emissive.size());
     punctualCount_ = static_cast<uint32_t>(lights_.punctual.size());
     hasLightTree_ = !lights_.nodes.empty();
@@ -110,7 +152,7 @@ std::vector<BindingInfo> GpuScene::bindings() {
 }
 
 void GpuScene::bind(const Device& device, const KernelLayout& layout) const {
-    for (const Bound& bound : buffers_) bindTexelView(device, layout, bound.binding, bound.texels.view.get());
+    for (const auto& [binding, buffer] : buffers_) bindTexelView(device, layout, binding, buffer.texels.view.get());
 }
 
 void GpuScene::writeFrame(shared::FrameParams& frame) const {
@@ -132,7 +174,7 @@ void GpuScene::writeFrame(shared::FrameParams& frame) const {
 
 size_t GpuScene::memoryBytes() const {
     size_t total = 0;
-    for (const Bound& bound : buffers_) total += bound.texels.buffer.sizeBytes();
+    for (const auto& [binding, buffer] : buffers_) total += buffer.texels.buffer.sizeBytes();
     return total;
 }
 

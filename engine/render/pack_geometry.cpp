@@ -86,6 +86,13 @@ shared::InstanceData packInstance(const Scene& scene, const Instance& instance, 
     return data;
 }
 
+std::vector<shared::InstanceData> instancesAt(const Scene& scene, const std::vector<MeshPlace>& places) {
+    std::vector<shared::InstanceData> instances;
+    for (const Instance& instance : scene.instances)
+        instances.push_back(packInstance(scene, instance, places[instance.mesh]));
+    return instances;
+}
+
 }  // namespace
 
 std::vector<shared::MotionData> packMotion(const Scene& scene) {
@@ -125,9 +132,13 @@ GeometryData packGeometry(const Scene& scene) {
         for (size_t i = 0; i < mesh.quadrics.size(); ++i)
             data.quadrics[place.firstQuadric + i] = packQuadric(mesh.quadrics[i]);
     });
-    for (const Instance& instance : scene.instances)
-        data.instances.push_back(packInstance(scene, instance, places[instance.mesh]));
+    data.instances = instancesAt(scene, places);
     return data;
+}
+
+std::vector<shared::InstanceData> packInstances(const Scene& scene) {
+    MeshPlace end;
+    return instancesAt(scene, placeMeshes(scene, end));
 }
 
 }  // namespace raylab

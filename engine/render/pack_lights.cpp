@@ -22,9 +22,7 @@ double luminance(glm::vec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.
 /// The mean of an emission texture over the whole of it (its smallest level), 1 without one.
 glm::vec3 meanEmission(const Material& material, const MaterialTables& tables) {
     if (material.emissionTexture == kNoTexture) return material.emission;
-    const auto index = static_cast<size_t>(material.emissionTexture);
-    const bool isLast = index + 1 == tables.textures.size();
-    const uint32_t texel = tables.texels[(isLast ? tables.texels.size() : tables.textures[index + 1].firstTexel) - 1];
+    const uint32_t texel = tables.means[static_cast<size_t>(material.emissionTexture)];
     glm::vec3 mean;
     // One step is added lest a nearly black texture never be chosen although it emits somewhere.
     for (int i = 0; i < 3; ++i) mean[i] = srgbToLinear(static_cast<float>((texel >> (8 * i) & 255u) + 1u) / 256.0f);
@@ -189,12 +187,12 @@ void shareSamples(KindFlux emissive, KindFlux punctual, KindFlux environment, Li
     lights.shareEnvironment = share(environment);
 }
 
-double packEnvironment(const Scene& scene, double sceneRadius, LightTables& lights) {
-    if (!scene.environment) return 0.0;
+void packEnvironment(const Scene& scene, LightTables& lights) {
+    if (!scene.environment) return;
     const Bitmap& map = scene.environment->radiance;
     if (map.pixelCount() == 1) {
         lights.environmentConstant = {map.pixels[0], map.pixels[1], map.pixels[2]};
-        return 0.0;
+        return;
     }
     std::vector<double> weights(map.pixelCount());
     for (int y = 0; y < map.height; ++y) {
@@ -213,7 +211,19 @@ double packEnvironment(const Scene& scene, double sceneRadius, LightTables& ligh
     lights.environmentAlias = buildAliasTable(weights);
     lights.environmentWidth = static_cast<uint32_t>(map.width);
     lights.environmentHeight = static_cast<uint32_t>(map.height);
-    return kPi * sceneRadius * sceneRadius * mean * 2.0 * kPi * kPi;
+    lights.environmentMean = mean;
+}
+
+/// As packEnvironment() but for the arrays.
+void adoptEnvironment(const LightTables& known, LightTables& lights) {
+    lights.environmentConstant = known.environmentConstant;
+    lights.environmentWidth = known.environmentWidth;
+    lights.environmentHeight = known.environmentHeight;
+    lights.environmentMean = known.environmentMean;
+}
+
+double environmentFlux(const LightTables& lights, double sceneRadius) {
+    return kPi * sceneRadius * sceneRadius * lights.environmentMean * 2.0 * kPi * kPi;
 }
 
 }  // namespace
@@ -222,7 +232,8 @@ bool hasSunLight(const Scene& scene, const LightConfig& config) {
     return config.allPunctual && scene.environment && scene.environment->parts;
 }
 
-LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, const LightConfig& config) {
+LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& materials, const LightConfig& config,
+                       const LightTables* known) {
     LightTables lights;
     const std::vector<float> emitted = weighMaterials(scene, materials, config.choice);
     const double emissive = emitted.empty() ? 0.0 : packEmissive(scene, materials, emitted, lights);
@@ -231,8 +242,11 @@ LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& ma
     const LightChoice choice = settleChoice(config.choice, lights.emissive.size() + localCount);
     const PunctualFlux flux = packPunctual(punctual, sceneRadius, choice, config.allPunctual, lights);
     if (!config.allPunctual) countShapes(punctual, lights);
-    const double environment = packEnvironment(scene, sceneRadius, lights);
-    const KindFlux sky{environment, !lights.environment.empty()};
+    if (known != nullptr)
+        adoptEnvironment(*known, lights);
+    else
+        packEnvironment(scene, lights);
+    const KindFlux sky{environmentFlux(lights, sceneRadius), lights.environmentWidth > 0};
     if (choice == LightChoice::tree) {
         packLightTree(scene, emitted, lights);
         shareSamples({emissive + flux.local, true}, {flux.directional, localCount < punctual.size()}, sky, choice, lights);

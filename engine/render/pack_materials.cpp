@@ -91,6 +91,10 @@ void packTextures(const Scene& scene, MaterialTables& tables) {
     tbb::parallel_for(size_t{0}, scene.textures.size(), [&](size_t i) {
         fillLevels(scene.textures[i], tables.texels.data() + tables.textures[i].firstTexel);
     });
+    for (size_t i = 0; i < tables.textures.size(); ++i) {
+        const size_t end = i + 1 < tables.textures.size() ? tables.textures[i + 1].firstTexel : tables.texels.size();
+        tables.means.push_back(end > tables.textures[i].firstTexel ? tables.texels[end - 1] : 0u);
+    }
 }
 
 shared::MaterialData packMaterial(const Material& m) {
@@ -119,9 +123,15 @@ uint32_t textureIndex(int32_t texture) {
     return texture == kNoTexture ? shared::kNoTextureIndex : static_cast<uint32_t>(texture);
 }
 
+std::vector<shared::MaterialData> packMaterialData(const Scene& scene) {
+    std::vector<shared::MaterialData> packed;
+    for (const Material& material : scene.materials) packed.push_back(packMaterial(material));
+    return packed;
+}
+
 MaterialTables packMaterials(const Scene& scene) {
     MaterialTables tables;
-    for (const Material& material : scene.materials) tables.materials.push_back(packMaterial(material));
+    tables.materials = packMaterialData(scene);
     packTextures(scene, tables);
     return tables;
 }

@@ -110,20 +110,22 @@ PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSetti
 
 void updateScene(Device& device, const Scene& scene, const SceneChange& change, PreparedScene& prepared) {
     prepared.tracer->update(device, scene, prepared.traceConfig, change);
-    updateShading(device, scene, prepared);
+    updateShading(device, scene, prepared,
+                  {.geometry = !change.meshes.empty(), .instances = true, .textures = false, .environment = false});
 }
 
-void updateShading(Device& device, const Scene& scene, PreparedScene& prepared) {
-    prepared.gpu = std::make_unique<GpuScene>(device, scene, prepared.lightConfig);
+void updateShading(Device& device, const Scene& scene, PreparedScene& prepared, const SceneParts& changed) {
+    prepared.gpu->update(device, scene, prepared.lightConfig, changed);
     prepared.needs = analyseNeeds(scene, treePlanConfig(prepared.traceConfig));
     // What is there can stay.
     prepared.kernelNeeds |= prepared.needs.mask | needsOfLights(scene, prepared.lightConfig);
 }
 
-void updateSettings(Device& device, const Scene& scene, const RenderSettings& settings, PreparedScene& prepared) {
+void updateSettings(Device& device, const Scene& scene, const RenderSettings& settings, PreparedScene& prepared,
+                    const SceneParts& changed) {
     warnOfDarkness(scene, settings);
     readSettings(device, scene, settings, prepared);
-    updateShading(device, scene, prepared);
+    updateShading(device, scene, prepared, changed);
 }
 
 std::vector<BindingInfo> sceneBindings(const PreparedScene& prepared) {

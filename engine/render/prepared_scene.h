@@ -36,9 +36,11 @@ PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSetti
 /// bindings are due again (bindScene, makeFrame). Throws Error as its parts do.
 void updateScene(Device& device, const Scene& scene, const SceneChange& change, PreparedScene& prepared);
 
-/// Takes materials, textures, lights and environment up to a change of them; positions and what alpha tests ask for must
-/// be as they were. Kernels and bindings are due again.
-void updateShading(Device& device, const Scene& scene, PreparedScene& prepared);
+/// Takes materials, textures, lights and environment up to a change of them; positions and what alpha tests ask for
+/// must be as they were. What is said not to have changed is neither packed nor uploaded, and of the rest those buffers
+/// alone whose bytes are others. Kernels and bindings are due again. Where it throws Error, `prepared` must not be used
+/// any more.
+void updateShading(Device& device, const Scene& scene, PreparedScene& prepared, const SceneParts& changed = {});
 
 /// Bindings that every kernel over a scene has; `prepared` fills them.
 std::vector<BindingInfo> sceneBindings(const PreparedScene& prepared);

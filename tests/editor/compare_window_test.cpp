@@ -62,6 +62,17 @@ TEST_F(CompareWindowTest, MeasuresErrorAndTimeOfBothSides) {
     EXPECT_NEAR(ratio, 2.0, 0.4);
 }
 
+/// What B is told before it is shown holds; all else is A's.
+TEST_F(CompareWindowTest, BIsSetBeforeItIsShown) {
+    EXPECT_EQ(runScript(kSmall,
+                        "wait-idle\nset-b integrator normal\nassert integrator == path\nkey v\n"
+                        "compare relative\nwait-until samples-b == 2\nwait-until difference > 0.1\n"
+                        "key Alt+v\nassert integrator == normal\nassert depth == 2\nassert spp == 2\n"
+                        "assert errors == 0\nquit\n"),
+              0)
+        << readFile("log");
+}
+
 TEST_F(CompareWindowTest, SwapsAndTakesBsSettingsAsOneStep) {
     EXPECT_EQ(
         runScript(

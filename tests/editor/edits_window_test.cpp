@@ -24,6 +24,21 @@ TEST_F(WindowTest, DuplicatesDragsAndUndoesWithNames) {
         << readFile("log");
 }
 
+/// An edit of a material uploads the table of materials (and the first metal 17 KB of albedos), and nothing is prepared anew;
+/// undone, the picture is what it was.
+TEST_F(WindowTest, TakesUpAnEditOfAMaterialInPlace) {
+    EXPECT_EQ(runScript(kSmall,
+                        kSelectTheTallBox +
+                            "wait-idle\nassert updated-bytes == 0\nremember picture-contrast\npress material-metallic\n"
+                            "wait-until undo contains metallic\nwait-until updated-bytes > 0\nwait-idle\n"
+                            "assert updated-bytes < 20000\nassert picture-contrast != remembered\n"
+                            "panel Kernel\nwait 0.2\nscreenshot kernel.png\n"
+                            "key Ctrl+z\nwait-until picture-contrast == remembered\n"
+                            "assert errors == 0\nassert validation == 0\nquit\n"),
+              0)
+        << readFile("log");
+}
+
 TEST_F(WindowTest, HidesIsolatesAndDeletes) {
     EXPECT_EQ(runScript(kSmall,
                         kSelectTheTallBox +

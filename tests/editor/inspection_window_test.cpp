@@ -63,6 +63,20 @@ TEST_F(WindowTest, StepsAlongARayAndExportsIt) {
     EXPECT_FALSE(walk.at("hit").is_null());
 }
 
+/// The same through two levels of trees: instances above meshes.
+TEST_F(WindowTest, ShowsTheTreesOfMeshesBelowInstances) {
+    EXPECT_EQ(runScript(kSmall + "--trees mesh ",
+                        "wait-samples 1\npanel BVH\nkey b\nwait-until bvh-boxes > 10\nassert bvh-sah > 1\n"
+                        "wait-until bvh-epo >= 0\nwait 0.2\nscreenshot mesh-boxes.png\n"
+                        "click v0.62 v0.55\nwait-until bvh-selected-leaf == 1\nremember camera-z\nkey f\n"
+                        "wait-until camera-z != remembered\nkey Home\npanel Nodes\nwait-until bvh-nodes > 1\n"
+                        "key r\nclick v0.62 v0.55\nwait-until ray-bounces == 1\nassert ray-hit == 1\n"
+                        "assert ray-steps > 3\nkey Right\nkey Right\nassert ray-step == 2\nwait 0.2\n"
+                        "screenshot mesh-step.png\nassert errors == 0\nassert validation == 0\nquit\n"),
+              0)
+        << readFile("log");
+}
+
 /// Counts follow the view.
 TEST_F(WindowTest, CountsWhatRaysCost) {
     EXPECT_EQ(runScript(kSmall,

@@ -44,6 +44,9 @@ const std::string kBreak =
     "sed -i 's/return integrateView(ray, cone, random);/return nonsense;/' "
     "glsl/integrators/integrate.glsl";
 
+const std::string kBreakPainted =
+    "sed -i 's/return vec3(0.0, 1.0, 0.0);/return nonsense;/' glsl/integrators/integrate.glsl";
+
 TEST_F(ShadersWindowTest, TakesUpAChangeOfASource) {
     EXPECT_EQ(runScript(kScene + "--integrator normal ",
                         "wait-idle\nremember picture-contrast\nscreenshot before.png\n"
@@ -56,6 +59,24 @@ TEST_F(ShadersWindowTest, TakesUpAChangeOfASource) {
     const float* middle = window.at(600, 300);
     EXPECT_GT(middle[1], 0.9f);
     EXPECT_LT(middle[0] + middle[2], 0.1f);
+}
+
+/// A picture that is rendered to a file is of the sources as they are: of the changed one, or of the last that
+/// compiled.
+TEST_F(ShadersWindowTest, RendersToAFileWithTheKernelsOfTheSources) {
+    EXPECT_EQ(runScript(kScene + "--integrator normal --width 32 --height 18 ",
+                        "wait-idle\nkey p\nscreenshot before.png\nwait 0.2\nkey F11\nwait 0.2\nwait-until job == \"\"\n"
+                        "assert errors == 0\nscreenshot painted.png\nwait-until errors == 1\nkey F11\nwait 0.2\n"
+                        "wait-until job == \"\"\nassert errors == 1\nquit\n",
+                        onPicture("before.png", kPaint) + onPicture("painted.png", kBreakPainted)),
+              0)
+        << readFile("log");
+    for (const char* name : {"raylab-cornell-1.png", "raylab-cornell-2.png"}) {
+        const Bitmap picture = readImage(folder_ / name);
+        const float* middle = picture.at(16, 9);
+        EXPECT_GT(middle[1], 0.9f) << name;
+        EXPECT_LT(middle[0] + middle[2], 0.1f) << name;
+    }
 }
 
 TEST_F(ShadersWindowTest, KeepsTheKernelWhereASourceIsWrong) {

@@ -41,9 +41,13 @@ RenderSettings Comparison::effectiveSettings(const RenderSettings& ofA) const {
     return settings;
 }
 
+void Comparison::begin(EditorContext& context) {
+    if (!std::exchange(hasSettings_, true)) copyFromA(context);
+}
+
 void Comparison::setMode(EditorContext& context, CompareMode mode) {
     if (mode == CompareMode::off && mode_ != CompareMode::off) lastMode_ = mode_;
-    if (!std::exchange(hasSettings_, true)) copyFromA(context);
+    begin(context);
     mode_ = mode;
     if (session_ && mode == CompareMode::off) session_->setPaused(true);
 }

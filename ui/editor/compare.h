@@ -37,6 +37,8 @@ public:
     bool isOn() const { return mode_ != CompareMode::off; }
     /// The first time, B's settings become a copy of A's.
     void setMode(EditorContext& context, CompareMode mode);
+    /// B's settings become a copy of A's, unless they have been asked for before.
+    void begin(EditorContext& context);
     /// Off, or as it was before it was off.
     void toggle(EditorContext& context);
 

@@ -2,13 +2,17 @@
 
 #include <array>
 #include <cstdio>
+#include <memory>
+#include <utility>
 
+#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/stopwatch.h"
 #include "engine/image/image8.h"
 #include "engine/image/image_io.h"
 #include "engine/render/device_recovery.h"
+#include "engine/render/kernel_use.h"
 #include "engine/render/lighting.h"
 #include "engine/render/renderer.h"
 #include "ui/editor/picture.h"
@@ -38,10 +42,21 @@ std::string progressText(const std::filesystem::path& path, double done) {
     return "Rendering " + path.filename().string() + percent.data();
 }
 
+/// Brings the kernels of a traversal up to their sources.
+void refreshKernels(ShaderSources& shaders, const std::string& traversal) {
+    try {
+        shaders.refresh([&](const std::string& entry) { return mayServe(entry, traversal); });
+    } catch (const Error& error) {
+        logWarning(std::string(error.what()) + "; the last kernels that compiled render");
+    }
+}
+
 /// Nothing is written where the job is cancelled.
 void renderOnce(Device& device, const Scene& scene, const RenderSettings& settings, const std::filesystem::path& path,
-                JobControl& control) {
-    Renderer renderer(device, scene, settings);
+                ShaderSources& shaders, JobControl& control) {
+    auto prepared = std::make_shared<PreparedScene>(prepareScene(device, scene, settings));
+    refreshKernels(shaders, traversalOf(*prepared));
+    Renderer renderer(device, std::move(prepared), settings);
     const Stopwatch watch;
     double nextLook = kLookInterval;
     bool enough = false;
@@ -61,7 +76,7 @@ void renderOnce(Device& device, const Scene& scene, const RenderSettings& settin
 }  // namespace
 
 void renderImage(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                 const std::filesystem::path& path, JobControl& control) {
+                 const std::filesystem::path& path, ShaderSources& shaders, JobControl& control) {
     requireWritable(path);
     Scene settled = scene;
     settleEnvironment(settled, settings);
@@ -71,7 +86,7 @@ void renderImage(const Scene& scene, const Camera& camera, const RenderSettings&
     ReplaceableDevice device({settings.device, settings.validation});
     LossRecovery recovery;
     renderThroughLosses(device, own, recovery, [&](Device& here, const RenderSettings& now) {
-        renderOnce(here, settled, now, path, control);
+        renderOnce(here, settled, now, path, shaders, control);
     });
 }
 

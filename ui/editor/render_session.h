@@ -51,6 +51,8 @@ public:
     /// An answer that was not taken yet.
     std::optional<PickResult> takePick();
     uint32_t validationMessages() const { return validationMessages_; }
+    /// Uploaded for the last edit that was taken up in place; 0 where the last one prepared everything anew.
+    uint64_t updatedBytes() const { return updatedBytes_; }
     /// Ends the thread; nothing is rendered afterwards.
     void stop();
 
@@ -75,6 +77,7 @@ public:
     void publish(std::shared_ptr<const Picture> picture);
     void answer(const PickResult& result);
     void setValidationMessages(uint32_t count) { validationMessages_ = count; }
+    void setUpdatedBytes(uint64_t bytes) { updatedBytes_ = bytes; }
     const std::atomic<bool>& cancelled() const { return cancel_; }
 
 private:
@@ -96,6 +99,7 @@ private:
     bool stop_ = false;
     std::atomic<bool> cancel_{false};
     std::atomic<uint32_t> validationMessages_{0};
+    std::atomic<uint64_t> updatedBytes_{0};
     std::thread thread_;
 };
 

@@ -34,4 +34,11 @@ void describeFilm(const Renderer& renderer, const RenderSettings& wanted, const 
     if (times.render > 0.0) status.raysPerSecond = static_cast<double>(film->rays) / times.render;
 }
 
+std::string reasonToStop(const Renderer& renderer, const RenderSettings& wanted, double noise) {
+    if (renderer.completeSamples() == 0) return "";
+    if (wanted.timeLimit > 0.0 && renderer.times().render >= wanted.timeLimit) return "time limit";
+    if (wanted.targetError > 0.0 && noise >= 0.0 && noise <= wanted.targetError) return "target error";
+    return "";
+}
+
 }  // namespace raylab

@@ -11,4 +11,8 @@ void describeKernel(const Renderer& renderer, RenderStatus& status);
 /// What changes with every sample. Where `film` is given, its size and rays a second too.
 void describeFilm(const Renderer& renderer, const RenderSettings& wanted, const FilmImage* film, RenderStatus& status);
 
+/// Why a rendering should end before its samples are done, `noise` being its estimated relative error (negative: not
+/// known); empty where it should go on.
+std::string reasonToStop(const Renderer& renderer, const RenderSettings& wanted, double noise);
+
 }  // namespace raylab

@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <optional>
 
@@ -12,11 +11,12 @@
 #include "engine/core/stopwatch.h"
 #include "engine/render/device_recovery.h"
 #include "engine/render/kernel_use.h"
-#include "engine/render/lighting.h"
 #include "engine/render/prepared_settings.h"
 #include "engine/render/renderer.h"
 #include "ui/editor/model/edit_kinds.h"
-#include "ui/editor/picture.h"
+#include "ui/editor/model/settled_environment.h"
+#include "ui/editor/moving_size.h"
+#include "ui/editor/picture_feed.h"
 #include "ui/editor/render_status.h"
 #include "ui/editor/time_text.h"
 #include "ui/editor/view_caster.h"
@@ -27,14 +27,8 @@ namespace {
 constexpr int kNice = 10;
 /// A slice at most, so that a new request waits no longer than that.
 constexpr double kSliceMs = 25.0;
-/// A moving picture may take so long; at the largest divisor it may take longer.
-constexpr double kMovingSeconds = 0.06;
-constexpr uint32_t kLargestDivisor = 8;
 /// Unless a new request is waiting for longer than this, a moving picture is finished.
 constexpr double kPatienceSeconds = 0.2;
-/// Pictures are published at most so often, and take no more than this share of the time.
-constexpr double kPublishInterval = 0.12;
-constexpr double kPublishShare = 0.12;
 constexpr double kStatusInterval = 0.1;
 
 class RenderWorker {
@@ -86,10 +80,7 @@ private:
     /// All that was on the lost device is made anew from the scene that is wanted, at the next task, which this asks for.
     /// Where nothing is left to be tried the device is fresh too, and waits for a request of other geometry or a reload.
     void recover(const DeviceLost& loss) {
-        caster_.forget();
-        renderer_.reset();
-        prepared_.reset();
-        rendering_ = false;
+        forgetPrepared();
         RenderSettings settings = effectiveSettings();
         const bool goesOn = recovery_.adjust(loss, settings);
         device_.replace();
@@ -102,6 +93,15 @@ private:
             status.recovery = "the device was lost: " + settings.tracer + " goes on, on a fresh one";
         });
         session_.reload();
+    }
+
+    /// Nothing of it may be used any more. What is shown stays.
+    void forgetPrepared() {
+        caster_.forget();
+        renderer_.reset();
+        prepared_.reset();
+        isPrepared_ = false;
+        rendering_ = false;
     }
 
     /// Those that are wanted, in slices that let requests through, as far as losses of the device allow.
@@ -141,8 +141,7 @@ private:
             if (kinds != kEditNothing) prepare();
             return;
         }
-        if (touches(kEditTransforms)) return moveInstances();
-        if (touches(kEditMaterials | kEditLights | kEditEnvironment | kEditPrepared)) return updateShading();
+        if (touches(kEditTransforms | kEditShading)) return updateInPlace(kinds);
         if (touches(kEditKernel)) return restart("Compiling the kernel");
         if (touches(kEditCamera) || isOtherView(before, request)) return restart("");
         if (touches(kEditBudget)) resume();
@@ -158,22 +157,12 @@ private:
 
     bool isOtherView(const RenderRequest& before, const RenderRequest& request) const {
         return !(before.camera == request.camera) || before.width != request.width || before.height != request.height ||
-               chooseDivisor() != divisor_;
-    }
-
-    /// The largest picture that a moving view has time for.
-    uint32_t chooseDivisor() const {
-        if (preview_) return kLargestDivisor;
-        if (!wanted_.moving) return 1;
-        const double full = secondsPerPixel_ * wanted_.width * wanted_.height;
-        for (uint32_t divisor = 1; divisor < kLargestDivisor; divisor *= 2)
-            if (full / (divisor * divisor) <= kMovingSeconds) return divisor;
-        return kLargestDivisor;
+               size_.divisorFor(wanted_) != divisor_;
     }
 
     /// The settings of the film that is rendered now.
     RenderSettings filmSettings() {
-        divisor_ = chooseDivisor();
+        divisor_ = size_.divisorFor(wanted_);
         RenderSettings settings = effectiveSettings();
         settings.width = std::max<int64_t>(wanted_.width / divisor_, 1);
         settings.height = std::max<int64_t>(wanted_.height / divisor_, 1);
@@ -184,12 +173,13 @@ private:
 
     Scene settledScene() {
         Scene scene = *wanted_.scene;
-        settleEnvironment(scene, wanted_.settings);
+        environment_.settle(scene, wanted_.settings);
         return scene;
     }
 
     void prepare() {
         isPrepared_ = false;
+        session_.setUpdatedBytes(0);
         session_.report([](RenderStatus& status) { status.error.clear(); });
         report(RenderPhase::preparing, "Reading the environment");
         const Scene scene = settledScene();
@@ -200,7 +190,7 @@ private:
                    "Building the BVH  " + std::to_string(static_cast<int>(100.0f * part)) + " %");
         };
         report(RenderPhase::preparing, "Building the BVH");
-        preview_ = true;  // first a small picture, then that of the size that is wanted
+        size_.beginUnknown();  // first a small picture, then that of the size that is wanted
         const RenderSettings settings = filmSettings();
         auto prepared = std::make_shared<PreparedScene>(prepareScene(device_.get(), scene, settings, control));
         prepared->camera = wanted_.camera;
@@ -211,8 +201,7 @@ private:
         renderer_ = std::move(renderer);
         prepared_ = std::move(prepared);
         isPrepared_ = true;
-        diagonal_ = renderer_->sceneDiagonal();
-        secondsPerPixel_ = kUnknownCost;
+        preparedEnvironment_ = scene.environment;
         describe();
         begin();
     }
@@ -220,6 +209,7 @@ private:
     void reload() {
         const ShaderSources& sources = *session_.share().shaders;
         if (!sources.missing().empty()) logWarning("F5 cannot compile kernels: " + sources.missing());
+        environment_.forget();
         prepare();
     }
 
@@ -243,7 +233,7 @@ private:
             session_.report([](RenderStatus& status) { status.error.clear(); });
             return report(rendering_ ? RenderPhase::rendering : RenderPhase::done, "");
         }
-        keepBackdrop();
+        pictures_.keepBackdrop();
         report(RenderPhase::preparing, "Compiling the kernel");
         auto renderer = std::make_unique<Renderer>(device_.get(), prepared_, filmSettings());
         caster_.forget();
@@ -252,27 +242,37 @@ private:
         begin();
     }
 
-    void moveInstances() {
-        if (!moved_) {
-            moved_ = true;  // from here on each mesh has a tree of its own below its instances, which can be moved
-            return prepare();
+    /// Takes what is on the device up to an edit that leaves meshes and textures as they are: buffers whose bytes stay
+    /// are not touched.
+    void updateInPlace(uint32_t kinds) {
+        using namespace editor;
+        const bool moves = (kinds & kEditTransforms) != 0;
+        // From the first move on each mesh has a tree of its own below its instances, which can be moved.
+        if (!isPrepared_ || (moves && !std::exchange(moved_, true))) return prepare();
+        const Scene scene = settledScene();
+        const SceneParts changed{.geometry = false,
+                                 .instances = false,
+                                 .textures = false,
+                                 .environment = !scene.environment.sameAs(preparedEnvironment_)};
+        caster_.forget();
+        const uint64_t before = prepared_->gpu->uploadedBytes();
+        try {
+            if (moves) updateScene(device_.get(), scene, {.instances = true, .meshes = {}}, *prepared_);
+            if ((kinds & kEditShading) != 0)
+                updateSettings(device_.get(), scene, effectiveSettings(), *prepared_, changed);
+        } catch (...) {
+            forgetPrepared();  // it may be half of each
+            throw;
         }
-        const Scene scene = settledScene();
-        caster_.forget();
-        renderer_->update(scene, {.instances = true, .meshes = {}});
-        restart("");
-    }
-
-    void updateShading() {
-        const Scene scene = settledScene();
-        caster_.forget();
-        updateSettings(device_.get(), scene, effectiveSettings(), *prepared_);
+        preparedEnvironment_ = scene.environment;
+        session_.setUpdatedBytes(prepared_->gpu->uploadedBytes() - before);
         restart("Compiling the kernel");
+        describe();
     }
 
     /// `meanwhile`: what takes long about it; empty where nothing does.
     void restart(const std::string& meanwhile) {
-        keepBackdrop();
+        pictures_.keepBackdrop();
         if (!meanwhile.empty()) report(RenderPhase::preparing, meanwhile);
         renderer_->restart(filmSettings(), wanted_.camera);
         begin();
@@ -281,8 +281,7 @@ private:
     /// A film has just been started.
     void begin() {
         session_.report([](RenderStatus& status) { status.error.clear(); });
-        lastNoise_ = -1.0;
-        publishedSamples_ = 0;
+        pictures_.begin();
         resume();
     }
 
@@ -293,11 +292,6 @@ private:
         report(paused_ ? RenderPhase::paused : RenderPhase::rendering, "");
     }
 
-    /// What is shown where the next film has nothing yet.
-    void keepBackdrop() {
-        if (lastMean_.pixelCount() > 0) backdrop_ = lastMean_;
-    }
-
     void advance() {
         bool more = true;
         const Stopwatch watch;
@@ -306,16 +300,15 @@ private:
             more = renderer_->step();
         } while (wanted_.moving && more && renderer_->completeSamples() == 0 &&
                  (watch.seconds() < kPatienceSeconds || !session_.hasRequest()));
-        measureCost();
-        if (preview_ && renderer_->completeSamples() > 0) {
-            preview_ = false;
+        size_.measure(*renderer_);
+        if (size_.isPreview() && renderer_->completeSamples() > 0) {
+            size_.endPreview();
             publish();
-            if (chooseDivisor() != divisor_) return restart("");
+            if (size_.divisorFor(wanted_) != divisor_) return restart("");
         }
-        const std::string reason = more ? reasonToStop() : "samples";
+        const std::string reason = more ? reasonToStop(*renderer_, wanted_.settings, pictures_.noise()) : "samples";
         if (!reason.empty()) rendering_ = false;
-        const bool isFirstPass = renderer_->completeSamples() > 0 && publishedSamples_ == 0;
-        if (!rendering_ || isFirstPass || sincePublish_.seconds() >= publishInterval_) publish();
+        if (!rendering_ || pictures_.isDue(*renderer_)) publish();
         if (!reason.empty()) {
             recovery_.forget();
             report(RenderPhase::done, reason);
@@ -324,38 +317,13 @@ private:
         }
     }
 
-    /// Why the rendering should end before its samples are done; empty where it should not.
-    std::string reasonToStop() const {
-        const RenderSettings& s = wanted_.settings;
-        if (renderer_->completeSamples() == 0) return "";
-        if (s.timeLimit > 0.0 && renderer_->times().render >= s.timeLimit) return "time limit";
-        if (s.targetError > 0.0 && lastNoise_ >= 0.0 && lastNoise_ <= s.targetError) return "target error";
-        return "";
-    }
-
-    void measureCost() {
-        if (renderer_->pixelSamples() > 0)
-            secondsPerPixel_ = renderer_->times().render / static_cast<double>(renderer_->pixelSamples());
-    }
-
     void publish() {
         const Stopwatch watch;
-        const auto shown = std::make_shared<const FilmImage>(renderer_->snapshot());
-        const FilmImage& film = *shown;
-        if (renderer_->completeSamples() > 1) lastNoise_ = film.estimatedRelativeError;
-        auto picture = std::make_shared<Picture>(developPicture(film, backdrop_, wanted_.settings, diagonal_));
-        picture->film = shown;
-        picture->seconds = renderer_->times().render;
+        const std::shared_ptr<Picture> picture = pictures_.make(*renderer_, wanted_.settings);
         picture->hits = lookBehind(picture->width, picture->height);
-        picture->camera = prepared_->camera;
-        picture->samples = renderer_->completeSamples();
-        picture->number = ++pictureCount_;
-        publishedSamples_ = picture->samples;
-        if (renderer_->completeSamples() > 0) lastMean_ = film.mean;
-        session_.publish(std::move(picture));
-        describeProgress(&film);
-        publishInterval_ = std::max(kPublishInterval, watch.seconds() / kPublishShare);
-        sincePublish_.restart();
+        session_.publish(picture);
+        describeProgress(picture->film.get());
+        pictures_.finish(watch.seconds());
     }
 
     /// What lies behind the film's pixels; nullptr where nobody asked, or while things move that a caster would have to
@@ -372,7 +340,7 @@ private:
     void describeProgress(const FilmImage* film) {
         session_.report([&](RenderStatus& status) {
             describeFilm(*renderer_, wanted_.settings, film, status);
-            status.relativeError = lastNoise_;
+            status.relativeError = pictures_.noise();
             status.divisor = divisor_;
         });
         sinceStatus_.restart();
@@ -383,8 +351,6 @@ private:
                                   : PickResult{.ticket = task.ticket});
     }
 
-    static constexpr double kUnknownCost = 1e-6;  ///< seconds a pixel: a guess that leads to small pictures at first
-
     RenderSession& session_;
     ReplaceableDevice device_;
     LossRecovery recovery_;
@@ -392,23 +358,17 @@ private:
     RenderRequest wanted_;
     std::shared_ptr<PreparedScene> prepared_;
     std::unique_ptr<Renderer> renderer_;
+    editor::SettledEnvironment environment_;
+    SharedOptional<Environment> preparedEnvironment_;  ///< that `prepared_` has
     ViewCaster caster_;
+    MovingSize size_;
+    PictureFeed pictures_;
     uint64_t shaders_ = 0;     ///< state of the sources that kernels are of
     bool isPrepared_ = false;  ///< what is wanted: the last prepare() did not throw
     bool rendering_ = false;
     bool paused_ = false;
-    bool preview_ = false;           ///< the film is the first one of what was prepared
-    uint32_t publishedSamples_ = 0;  ///< of the film's last picture
-    bool moved_ = false;             ///< an instance has been: trees are laid out for more of it
+    bool moved_ = false;  ///< an instance has been: trees are laid out for more of it
     uint32_t divisor_ = 1;
-    double secondsPerPixel_ = kUnknownCost;
-    double lastNoise_ = -1.0;
-    float diagonal_ = 0.0f;
-    Bitmap backdrop_;
-    Bitmap lastMean_;
-    uint64_t pictureCount_ = 0;
-    double publishInterval_ = kPublishInterval;
-    Stopwatch sincePublish_;
     Stopwatch sinceStatus_;
 };
 

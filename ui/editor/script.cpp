@@ -44,7 +44,8 @@ constexpr std::array kCommands = {
     CommandRule{"report-latency", 1, 1}, CommandRule{"reset-latency", 0, 0},
     CommandRule{"compare", 1, 1},        CommandRule{"set-b", 2, 2},
     CommandRule{"simulate", 1, 1},       CommandRule{"press", 1, 2},
-    CommandRule{"report-place", 2, 2},   CommandRule{"quit", 0, 0},
+    CommandRule{"report-place", 2, 2},   CommandRule{"let-go", 0, 0},
+    CommandRule{"quit", 0, 0},
 };
 
 /// Words between blanks; quotation marks hold blanks together.
@@ -102,11 +103,10 @@ bool movePointerTo(ScriptHost& host, const std::string& place) {
     return true;
 }
 
-/// "X Y", for who moves the pointer from outside.
+/// "X Y" of a place that has been drawn, for who moves the pointer from outside.
 void reportPlace(ScriptHost& host, const std::string& place, const std::string& file) {
-    const auto centre = findPlace(host.context, place);
-    if (!centre) throw Error("nothing is drawn there");
-    const std::string text = std::to_string(std::lround(centre->first)) + " " + std::to_string(std::lround(centre->second)) + "\n";
+    const auto [x, y] = findPlace(host.context, place).value();
+    const std::string text = std::to_string(std::lround(x)) + " " + std::to_string(std::lround(y)) + "\n";
     writeFileAtomically(file, std::as_bytes(std::span(text)));
 }
 
@@ -293,6 +293,7 @@ void Script::expandOther(const ScriptLine& line) {
     if (w[0] == "set-b")
         once([w](ScriptHost& host) {
             auto& comparison = host.context.states.get<Comparison>();
+            comparison.begin(host.context);
             RenderSettings settings = comparison.settings();
             setSetting(findSetting(renderSettingsTable(), w[1]), settings, w[2]);
             comparison.setSettings(settings);
@@ -317,7 +318,12 @@ void Script::expandOther(const ScriptLine& line) {
     if (w[0] == "simulate") once([w](ScriptHost&) { simulateFailures(w[1]); });
     if (w[0] == "report-latency") once([w](ScriptHost& host) { host.latency.write(w[1]); });
     if (w[0] == "reset-latency") once([](ScriptHost& host) { host.latency.clear(); });
-    if (w[0] == "report-place") once([w](ScriptHost& host) { reportPlace(host, w[1], w[2]); });
+    if (w[0] == "report-place") {
+        add([w](ScriptHost& host) { return findPlace(host.context, w[1]).has_value(); });
+        add([](ScriptHost&) { return true; });  // what has just opened is at its place only now
+        once([w](ScriptHost& host) { reportPlace(host, w[1], w[2]); });
+    }
+    if (w[0] == "let-go") once([](ScriptHost& host) { host.pointer.reset(); });
     if (w[0] == "quit") once([](ScriptHost& host) { host.context.quit(); });
 }
 

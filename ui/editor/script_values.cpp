@@ -102,6 +102,7 @@ std::map<std::string, double> numbersOf(const ScriptHost& host) {
             {"difference", comparison.result().mode == comparison.mode() ? comparison.result().figureValue : -1.0},
             {"wipe", static_cast<double>(comparison.wipe)},
             {"noise", c.status.relativeError},
+            {"updated-bytes", static_cast<double>(c.session.updatedBytes())},
             {"divisor", c.status.divisor},
             {"instances", open ? static_cast<double>(state.scene().instances.size()) : 0.0},
             {"rendered", open ? static_cast<double>(state.document->rendered()->instances.size()) : 0.0},

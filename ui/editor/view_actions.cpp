@@ -99,12 +99,13 @@ void saveView(EditorContext& context) {
 
 void renderToFile(EditorContext& context, const std::string& extension) {
     const std::filesystem::path path = freeName(context, extension);
-    context.background.start("Rendering " + path.string(),
-                             [scene = context.state.document->rendered(), camera = context.state.camera,
-                              settings = context.state.settings(), path](JobControl& control) {
-                                 renderImage(*scene, camera, settings, path, control);
-                                 return Background::Finish([] {});
-                             });
+    context.background.start(
+        "Rendering " + path.string(),
+        [scene = context.state.document->rendered(), camera = context.state.camera, settings = context.state.settings(),
+         path, shaders = context.session.share().shaders](JobControl& control) {
+            renderImage(*scene, camera, settings, path, *shaders, control);
+            return Background::Finish([] {});
+        });
 }
 
 }  // namespace raylab

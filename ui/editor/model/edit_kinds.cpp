@@ -67,6 +67,7 @@ constexpr std::array kSettingKinds = {
 
 /// Whether triangles of the material need an alpha test differently.
 bool changesCutOut(const Material& a, const Material& b) {
+    if (a.alphaMode == AlphaMode::opaque && b.alphaMode == AlphaMode::opaque) return false;
     return a.alphaMode != b.alphaMode || a.alphaCutoff != b.alphaCutoff || a.alpha != b.alpha ||
            a.baseColorTexture != b.baseColorTexture;
 }

@@ -21,6 +21,8 @@ enum SceneEditKind : uint32_t {
     kEditTrees = 512,       ///< a setting that calls for other trees, or for another tracer
     kEditPrepared = 1024,   ///< a setting that the prepared scene keeps, beside those of trees and lights
     kEditEverything = 2047,
+    /// What the prepared scene keeps beside geometry, matrices and trees.
+    kEditShading = kEditMaterials | kEditLights | kEditEnvironment | kEditPrepared,
 };
 
 /// From one rendered scene to the next.

@@ -294,6 +294,7 @@ void drawChart(EditorContext& context, ChartPanel& p, const ChartView& view, con
         for (size_t j = 0; j < result.places[i].size(); ++j)
             notePlace(context, "chart-point-" + std::to_string(i) + "-" + std::to_string(j), result.places[i][j].first,
                       result.places[i][j].second);
+    noteValue(context, "chart-hovered", result.hovered ? 1.0 : 0.0);
     if (result.hovered) {
         drawPointTooltip(context, p, view, result.hovered->series, result.hovered->point);
         if (result.clicked) adopt(context, *view.chart, *result.hovered);

@@ -5,6 +5,7 @@
 #include "engine/scene/f0_presets.h"
 #include "ui/editor/model/edit_materials.h"
 #include "ui/editor/panels/inspector.h"
+#include "ui/editor/places.h"
 #include "ui/editor/texture_thumbnails.h"
 #include "ui/editor/theme.h"
 
@@ -21,6 +22,7 @@ public:
 
     void share(const char* label, float& value, const char* tip) {
         commit(ImGui::SliderFloat(label, &value, 0.0f, 1.0f, "%.3f"), label);
+        notePlace(context_, std::string("material-") + label);
         inspectorTip(tip);
     }
     void number(const char* label, float& value, float low, float high, float speed, const char* tip) {

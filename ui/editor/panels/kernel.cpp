@@ -12,6 +12,9 @@ void drawKernelPanel(EditorContext& context) {
         ImGui::TextColored(color::kDim, "No kernel yet.");
         return;
     }
+    if (context.session.updatedBytes() > 0)
+        ImGui::TextColored(color::kDim, "The last edit was taken up in place: %.1f KiB uploaded.",
+                           static_cast<double>(context.session.updatedBytes()) / 1024.0);
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY;
     if (!ImGui::BeginTable("needs", 3, flags)) return;
     ImGui::TableSetupScrollFreeze(0, 1);

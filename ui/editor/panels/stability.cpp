@@ -182,6 +182,7 @@ void drawStabilityPanel(EditorContext& context) {
     const bool running = view.running && !context.measuring.busyWith().empty();
     noteValue(context, "stability-rows", static_cast<double>(view.rows.size()));
     noteValue(context, "stability-running", running ? 1.0 : 0.0);
+    noteValue(context, "stability-evidence", p.selected != nullptr && p.selected->number.evidence ? 1.0 : 0.0);
     const float below = 2.0f * ImGui::GetFrameHeightWithSpacing();
     ImGui::BeginChild("left", {kListWidth * context.scale, 0.0f});
     drawCases(context, p, std::max(ImGui::GetContentRegionAvail().y - below, below));
