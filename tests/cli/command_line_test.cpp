@@ -118,6 +118,24 @@ TEST_F(CommandLine, OnlyNanVertices) {
 
 TEST_F(CommandLine, UnknownFlag) { expectRefused({"render", "cornell", "-o", "old.png", "--sp", "4"}, "--sp"); }
 
+TEST_F(CommandLine, UnknownSubcommandIsNamed) {
+    expectRefused({"rendr", "cornell", "-o", "old.png"}, "there is no subcommand 'rendr'");
+    expectRefused({"render", "--spp", "many"}, "--spp");
+    expectRefused({}, "subcommand is required");
+}
+
+/// As root a renamed file would take the place of /dev/null for good.
+TEST_F(CommandLine, DevicesAreWrittenAndNotReplaced) {
+    fs::create_symlink("/dev/null", folder_ / "null.json");
+    EXPECT_EQ(run(with({"render", "cornell", "-o", "a.png", "--json", "null.json"}, kSmall)).exitCode, 0);
+    EXPECT_TRUE(fs::is_symlink(folder_ / "null.json"));
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    fs::create_symlink("/dev/full", folder_ / "full.json");
+    const Outcome full = run(with({"render", "cornell", "-o", "a.png", "--json", "full.json"}, kSmall));
+    EXPECT_EQ(full.exitCode, 2) << full.err;
+    EXPECT_NE(full.err.find("disk full"), std::string::npos) << full.err;
+}
+
 TEST_F(CommandLine, UnknownSettingNamesItsNeighbour) {
     expectRefused({"render", "cornell", "-o", "old.png", "--set", "widht=4"}, "did you mean width");
 }
