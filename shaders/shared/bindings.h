@@ -36,7 +36,6 @@ RAYLAB_CONST uint kBindAlbedo = 26;          // texel buffer, uvec4: directional
 RAYLAB_CONST uint kBindLobes = 27;           // texel buffer, uvec4: four a material (LobeData)
 RAYLAB_CONST uint kBindPaths = 30;           // storage buffer, uvec4: states of paths (shared/wavefront.h): only in the wavefront's kernels
 RAYLAB_CONST uint kBindQueues = 31;          // storage buffer, uint: their queues
-RAYLAB_CONST uint kBindingCount = 32;
 
 RAYLAB_CONST uint kTileSize = 8;                            // a workgroup renders a tile of 8 x 8 pixels
 RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;
