@@ -20,7 +20,8 @@ void requireReadableFile(const std::filesystem::path& path);
 void requireWritable(const std::filesystem::path& path);
 
 /// Writes to a temporary name beside `path` and renames it, so that a file is either whole or as it was before.
-/// Throws Error (full disk, read-only folder); leaves no temporary behind.
+/// What is no file, a device or a pipe, is written as it is. Throws Error (full disk, read-only folder); leaves no
+/// temporary behind.
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// As above, for writers that need a path themselves: `write` gets the temporary name.

@@ -38,7 +38,6 @@ RAYLAB_CONST uint kBindLobeTextures = 28;    // texel buffer, uvec4: three a mat
 RAYLAB_CONST uint kBindMotion = 29;          // texel buffer, uvec4: three an instance (MotionData)
 RAYLAB_CONST uint kBindPaths = 30;           // storage buffer, uvec4: states of paths (shared/wavefront.h): only in the wavefront's kernels
 RAYLAB_CONST uint kBindQueues = 31;          // storage buffer, uint: their queues
-RAYLAB_CONST uint kBindingCount = 32;
 
 RAYLAB_CONST uint kTileSize = 8;                            // a workgroup renders a tile of 8 x 8 pixels
 RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;
