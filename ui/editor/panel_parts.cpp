@@ -108,6 +108,11 @@ void histogram(const char* id, std::span<const uint32_t> counts, const char* wha
     }
 }
 
+void searchField(const char* id, ImGuiTextFilter& filter, const char* hint) {
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::InputTextWithHint(id, hint, filter.InputBuf, IM_ARRAYSIZE(filter.InputBuf))) filter.Build();
+}
+
 std::string countText(size_t count) {
     std::string text = std::to_string(count);
     for (size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');

@@ -7,6 +7,8 @@
 
 #include "ui/editor/model/color_map.h"
 
+struct ImGuiTextFilter;
+
 namespace raylab {
 
 // Small parts that panels have in common, drawn into the current ImGui window.
@@ -23,6 +25,9 @@ bool colorMapCombo(const char* id, editor::ColorMap& map);
 /// Bars of a histogram, each with the number it stands for (or begins with, `step` from the next) and its count in a
 /// tooltip.
 void histogram(const char* id, std::span<const uint32_t> counts, const char* what, uint32_t step = 1);
+
+/// A field as wide as there is room, which says what is typed there as long as it is empty.
+void searchField(const char* id, ImGuiTextFilter& filter, const char* hint);
 
 /// 12345 as "12,345".
 std::string countText(size_t count);

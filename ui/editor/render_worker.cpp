@@ -77,8 +77,14 @@ private:
         });
     }
 
-    /// All that was on the lost device is made anew from the scene that is wanted, at the next task, which this asks for.
-    /// Where nothing is left to be tried the device is fresh too, and waits for a request of other geometry or a reload.
+    /// The newest request can be fulfilled.
+    void clearError() {
+        session_.report([](RenderStatus& status) { status.error.clear(); });
+    }
+
+    /// All that was on the lost device is made anew from the scene that is wanted, at the next task, which this asks
+    /// for. Where nothing is left to be tried the device is fresh too, and waits for a request of other geometry or a
+    /// reload.
     void recover(const DeviceLost& loss) {
         forgetPrepared();
         RenderSettings settings = effectiveSettings();
@@ -142,8 +148,8 @@ private:
             return;
         }
         if (touches(kEditTransforms | kEditShading)) return updateInPlace(kinds);
-        if (touches(kEditKernel)) return restart("Compiling the kernel");
-        if (touches(kEditCamera) || isOtherView(before, request)) return restart("");
+        if (touches(kEditKernel)) return clearError(), restart("Compiling the kernel");
+        if (touches(kEditCamera) || isOtherView(before, request)) return clearError(), restart("");
         if (touches(kEditBudget)) resume();
         if (touches(kEditFilm) || request.wantsHits != before.wantsHits) publish();
     }
@@ -180,7 +186,7 @@ private:
     void prepare() {
         isPrepared_ = false;
         session_.setUpdatedBytes(0);
-        session_.report([](RenderStatus& status) { status.error.clear(); });
+        clearError();
         report(RenderPhase::preparing, "Reading the environment");
         const Scene scene = settledScene();
         BuildControl control;
@@ -217,9 +223,9 @@ private:
     /// source does not compile.
     bool refreshSources(const std::string& traversal) {
         const Stopwatch watch;
-        const uint64_t before = std::exchange(shaders_, session_.share().shaders->refresh([&](const std::string& entry) {
-            return mayServe(entry, traversal);
-        }));
+        const uint64_t before = std::exchange(
+            shaders_,
+            session_.share().shaders->refresh([&](const std::string& entry) { return mayServe(entry, traversal); }));
         if (shaders_ == before) return false;
         logInfo("shaders of " + traversal + " compiled anew, " + timeText(watch.seconds()));
         return true;
@@ -230,7 +236,7 @@ private:
         if (!isPrepared_) return prepare();
         report(RenderPhase::preparing, "Compiling shaders");
         if (!refreshSources(traversalOf(*prepared_))) {
-            session_.report([](RenderStatus& status) { status.error.clear(); });
+            clearError();
             return report(rendering_ ? RenderPhase::rendering : RenderPhase::done, "");
         }
         pictures_.keepBackdrop();
@@ -238,6 +244,7 @@ private:
         auto renderer = std::make_unique<Renderer>(device_.get(), prepared_, filmSettings());
         caster_.forget();
         renderer_ = std::move(renderer);
+        clearError();
         describe();
         begin();
     }
@@ -245,8 +252,7 @@ private:
     /// Takes what is on the device up to an edit that leaves meshes and textures as they are: buffers whose bytes stay
     /// are not touched.
     void updateInPlace(uint32_t kinds) {
-        using namespace editor;
-        const bool moves = (kinds & kEditTransforms) != 0;
+        const bool moves = (kinds & editor::kEditTransforms) != 0;
         // From the first move on each mesh has a tree of its own below its instances, which can be moved.
         if (!isPrepared_ || (moves && !std::exchange(moved_, true))) return prepare();
         const Scene scene = settledScene();
@@ -258,7 +264,7 @@ private:
         const uint64_t before = prepared_->gpu->uploadedBytes();
         try {
             if (moves) updateScene(device_.get(), scene, {.instances = true, .meshes = {}}, *prepared_);
-            if ((kinds & kEditShading) != 0)
+            if ((kinds & editor::kEditShading) != 0)
                 updateSettings(device_.get(), scene, effectiveSettings(), *prepared_, changed);
         } catch (...) {
             forgetPrepared();  // it may be half of each
@@ -266,6 +272,7 @@ private:
         }
         preparedEnvironment_ = scene.environment;
         session_.setUpdatedBytes(prepared_->gpu->uploadedBytes() - before);
+        clearError();
         restart("Compiling the kernel");
         describe();
     }
@@ -280,7 +287,6 @@ private:
 
     /// A film has just been started.
     void begin() {
-        session_.report([](RenderStatus& status) { status.error.clear(); });
         pictures_.begin();
         resume();
     }

@@ -48,7 +48,7 @@ void setColors(ImVec4* colors) {
     colors[ImGuiCol_TextDisabled] = color::kDim;
     colors[ImGuiCol_WindowBg] = grey(0.118f);
     colors[ImGuiCol_ChildBg] = grey(0.118f, 0.0f);
-    colors[ImGuiCol_PopupBg] = grey(0.145f, 0.98f);
+    colors[ImGuiCol_PopupBg] = grey(0.145f);
     colors[ImGuiCol_Border] = grey(0.22f);
     colors[ImGuiCol_BorderShadow] = grey(0.0f, 0.0f);
     colors[ImGuiCol_FrameBg] = grey(0.165f);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "ui/editor/panel_parts.h"
 #include "ui/editor/panels.h"
 #include "ui/editor/plot.h"
 #include "ui/editor/settings_rows.h"
@@ -163,8 +164,7 @@ void drawChart(const Comparison& comparison) {
 
 void drawSettings(const EditorContext& context, Comparison& comparison, ComparePanel& panel) {
     ImGui::TextColored(color::kDim, "B's settings; what differs from A is lit");
-    panel.filter.Draw("##filter", -1.0f);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Search the settings");
+    searchField("##filter", panel.filter, "Search the settings");
     ImGui::Checkbox("only what differs", &panel.onlyDifferences);
     if (!beginSettingsTable("settings")) return;
     const RenderSettings& ofA = context.state.settings();

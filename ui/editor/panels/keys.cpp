@@ -76,8 +76,10 @@ void drawKeysOverlay(EditorContext& context) {
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize |
                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
                                        ImGuiWindowFlags_NoSavedSettings;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
     if (ImGui::Begin("Keys", &context.showKeys, flags)) drawTable();
     ImGui::End();
+    ImGui::PopStyleVar();
     if (context.input.pressed(GLFW_KEY_ESCAPE)) context.showKeys = false;
 }
 

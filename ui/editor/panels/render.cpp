@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include "ui/editor/panel_parts.h"
 #include "ui/editor/panels.h"
 #include "ui/editor/settings_rows.h"
 #include "ui/editor/theme.h"
@@ -60,8 +61,7 @@ void drawRenderPanel(EditorContext& context) {
     ImGui::TextColored(color::kDim, "%s", context.status.device.c_str());
     drawFigures(context.status);
     ImGui::Separator();
-    filter.Draw("##filter", -1.0f);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Search the settings");
+    searchField("##filter", filter, "Search the settings");
     if (!beginSettingsTable("settings")) return;
     for (const Row& row : renderSettingsTable())
         if (filter.PassFilter(std::string(row.name).c_str())) drawRow(context, row);

@@ -7,6 +7,7 @@
 #include "ui/editor/model/edit_instances.h"
 #include "ui/editor/model/edit_lights.h"
 #include "ui/editor/model/edit_materials.h"
+#include "ui/editor/panel_parts.h"
 #include "ui/editor/panels.h"
 #include "ui/editor/scene_actions.h"
 #include "ui/editor/theme.h"
@@ -227,8 +228,7 @@ void drawScenePanel(EditorContext& context) {
         ImGui::EndPopup();
     }
     ImGui::SameLine();
-    filter.Draw("##search", -1.0f);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Search by name");
+    searchField("##search", filter, "Search by name");
     drawInstances(context, filter);
     drawLights(context, filter);
     drawCameras(context, filter);

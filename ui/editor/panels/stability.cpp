@@ -45,6 +45,7 @@ void drawCases(EditorContext& context, StabilityPanel& p, float height) {
         last = each.id;
         if (ImGui::Selectable(("##" + id).c_str(), p.chosen == id)) p.chosen = id;
         notePlace(context, "stability-case-" + id);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", provokes.c_str());
         ImGui::SameLine(0.0f, 0.0f);
         ImGui::TextColored(color::kDim, "%s", id.c_str());
         ImGui::SameLine(40.0f * context.scale);
@@ -113,6 +114,7 @@ void drawRow(EditorContext& context, StabilityPanel& p, const std::shared_ptr<co
 }
 
 void drawRows(EditorContext& context, StabilityPanel& p, const StabilityFeed::View& view, const ImVec2& size) {
+    if (view.rows.empty()) return;
     constexpr ImGuiTableFlags flags =
         ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_Resizable;
     if (!ImGui::BeginTable("rows", 6, flags, size)) return;
