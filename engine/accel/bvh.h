@@ -51,8 +51,8 @@ struct BvhConfig {
     /// Of `spatial`: duplicate references at most, as a part of the triangles, 0 .. kMaxSpatialBudget.
     float spatialBudget = 0.25f;
     /// Of `spatial`: planes through triangles are tried where the boxes of the best division of whole ones overlap by
-    /// more than this part of the root's area (Stich et al. 2009, section 4.3: alpha, 1e-5 there). SAH and milliseconds with 1e-5 and
-    /// 1e-4: house 32.6 in 2,590 and 33.3 in 1,910, dragon 49.1 in 2,595 and 49.1 in 1,915, Sponza 69.9 in 770 and 69.9 in 657.
+    /// more than this part of the root's area (Stich et al. 2009, section 4.3: alpha, there 1e-5, which takes a third
+    /// longer to build for a SAH at most 2 % lower: docs/benchmarks/2026-11-23-traversal.md).
     float spatialOverlap = 1e-4f;
     /// Of `linear`: how far along the curve a cluster looks for its nearest neighbour, 1 .. kMaxSearchRadius. On the
     /// dragon 4 give SAH 51.5 and 16 give 51.4; the build with 16 takes a quarter longer.

@@ -34,6 +34,17 @@ Material fullMaterial(const Material& textures) {
     m.thin = false;
     m.specular = 0.14f;
     m.doubleSided = true;
+    m.specularColor = {0.21f, 0.22f, 0.23f};
+    m.clearcoat = 0.24f;
+    m.clearcoatRoughness = 0.25f;
+    m.sheenColor = {0.26f, 0.27f, 0.28f};
+    m.sheenRoughness = 0.29f;
+    m.anisotropy = 0.31f;
+    m.anisotropyRotationRadians = 0.32f;
+    m.attenuationColor = {0.33f, 0.34f, 0.35f};
+    m.attenuationDistance = 36.0f;
+    m.thickness = 0.37f;
+    m.priority = 38;
     m.phong = PhongMaterial{glm::vec3(0.15f), glm::vec3(0.16f), 17.0f, glm::vec3(0.18f), glm::vec3(0.19f), 0.2f, 2.1f};
     return m;
 }
@@ -238,6 +249,11 @@ TEST(EditorEdits, ACopiedMaterialIsPastedWithoutItsName) {
     elsewhere.apply(pasteMaterial(0, materialText(full, document.scene())));
     EXPECT_EQ(elsewhere.scene().materials[0].baseColorTexture, kNoTexture);  // it has no such textures
     EXPECT_EQ(elsewhere.scene().materials[0].ior, full.ior);
+    Material clear = document.scene().materials[0];
+    clear.lobeTextures.sheenColor = 0;  // a colour
+    document.apply(pasteMaterial(2, materialText(clear, document.scene())));
+    clear.name = "glass";
+    EXPECT_EQ(document.scene().materials[2], clear) << "an infinite distance, a lobe's texture";
     for (const char* text : {"", "hello", "{}", "{\"schema\": \"raylab.camera/1\"}"})
         EXPECT_THROW(pasteMaterial(0, text), Error) << text;
 }

@@ -1,6 +1,12 @@
+#include <array>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
 
 #include "engine/core/error.h"
+#include "engine/scene/texture_slots.h"
 #include "ui/editor/model/edit_materials.h"
 
 namespace raylab::editor {
@@ -26,7 +32,41 @@ void visitMaterial(AnyMaterial& material, Visit&& visit) {
     visit("thin", material.thin);
     visit("specular", material.specular);
     visit("doubleSided", material.doubleSided);
+    visit("specularColor", material.specularColor);
+    visit("clearcoat", material.clearcoat);
+    visit("clearcoatRoughness", material.clearcoatRoughness);
+    visit("clearcoatNormalScale", material.lobeTextures.clearcoatNormalScale);
+    visit("sheenColor", material.sheenColor);
+    visit("sheenRoughness", material.sheenRoughness);
+    visit("anisotropy", material.anisotropy);
+    visit("anisotropyRotationRadians", material.anisotropyRotationRadians);
+    visit("attenuationColor", material.attenuationColor);
+    visit("attenuationDistance", material.attenuationDistance);
+    visit("thickness", material.thickness);
+    visit("priority", material.priority);
 }
+
+struct TextureKey {
+    const char* name;
+    bool srgb;
+};
+
+/// Of textureSlots(), in their order.
+constexpr std::array kTextureKeys = {TextureKey{"baseColor", true},
+                                     TextureKey{"metallicRoughness", false},
+                                     TextureKey{"normal", false},
+                                     TextureKey{"emission", true},
+                                     TextureKey{"clearcoat", false},
+                                     TextureKey{"clearcoatRoughness", false},
+                                     TextureKey{"clearcoatNormal", false},
+                                     TextureKey{"sheenColor", true},
+                                     TextureKey{"sheenRoughness", false},
+                                     TextureKey{"anisotropy", false},
+                                     TextureKey{"specular", false},
+                                     TextureKey{"specularColor", true},
+                                     TextureKey{"transmission", false},
+                                     TextureKey{"thickness", false}};
+static_assert(kTextureKeys.size() == std::tuple_size_v<decltype(textureSlots(std::declval<Material&>()))>);
 
 template <class AnyPhong, class Visit>
 void visitPhong(AnyPhong& phong, Visit&& visit) {
@@ -43,7 +83,11 @@ struct Writer {
     json& target;
     void operator()(const char* key, const glm::vec3& v) const { target[key] = {v.x, v.y, v.z}; }
     void operator()(const char* key, AlphaMode mode) const { target[key] = static_cast<uint32_t>(mode); }
-    void operator()(const char* key, float value) const { target[key] = value; }
+    /// JSON has no infinity: what is not there stands for it.
+    void operator()(const char* key, float value) const {
+        target[key] = std::isfinite(value) ? json(value) : json(nullptr);
+    }
+    void operator()(const char* key, uint32_t value) const { target[key] = value; }
     void operator()(const char* key, bool value) const { target[key] = value; }
 };
 
@@ -58,7 +102,11 @@ struct Reader {
         if (source.contains(key)) mode = static_cast<AlphaMode>(std::min(source[key].get<uint32_t>(), 2u));
     }
     void operator()(const char* key, float& value) const {
-        if (source.contains(key)) value = source[key].get<float>();
+        if (!source.contains(key)) return;
+        value = source[key].is_null() ? std::numeric_limits<float>::infinity() : source[key].get<float>();
+    }
+    void operator()(const char* key, uint32_t& value) const {
+        if (source.contains(key)) value = source[key].get<uint32_t>();
     }
     void operator()(const char* key, bool& value) const {
         if (source.contains(key)) value = source[key].get<bool>();
@@ -76,9 +124,10 @@ Material parseMaterial(const std::string& text, const Scene& scene, Material mat
         const json source = json::parse(text);
         if (source.at("schema") != kSchema) throw Error("");
         visitMaterial(material, Reader{source});
-        for (const TextureSlot slot : kTextureSlots) {
-            const std::string name = source.at("textures").value(textureSlotName(slot), "");
-            textureAt(material, slot) = name.empty() ? kNoTexture : findTexture(scene, name, isColorSlot(slot));
+        const auto slots = textureSlots(material);
+        for (size_t i = 0; i < slots.size(); ++i) {
+            const std::string name = source.at("textures").value(kTextureKeys[i].name, "");
+            *slots[i] = name.empty() ? kNoTexture : findTexture(scene, name, kTextureKeys[i].srgb);
         }
         material.phong.reset();
         if (source.contains("phong")) visitPhong(material.phong.emplace(), Reader{source["phong"]});
@@ -93,9 +142,10 @@ Material parseMaterial(const std::string& text, const Scene& scene, Material mat
 std::string materialText(const Material& material, const Scene& scene) {
     json text = {{"schema", kSchema}, {"name", material.name}, {"textures", json::object()}};
     visitMaterial(material, Writer{text});
-    for (const TextureSlot slot : kTextureSlots)
-        if (const int32_t texture = textureAt(material, slot); texture != kNoTexture)
-            text["textures"][textureSlotName(slot)] = scene.textures[static_cast<size_t>(texture)].name;
+    const auto slots = textureSlots(material);
+    for (size_t i = 0; i < slots.size(); ++i)
+        if (*slots[i] != kNoTexture)
+            text["textures"][kTextureKeys[i].name] = scene.textures[static_cast<size_t>(*slots[i])].name;
     if (material.phong) visitPhong(*material.phong, Writer{text["phong"]});
     return text.dump(2, ' ', false, json::error_handler_t::replace);
 }
