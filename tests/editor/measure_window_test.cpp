@@ -93,7 +93,7 @@ TEST_F(MeasureWindowTest, RunsACaseAndShowsWhereItFails) {
     const std::string script =
         "wait-samples 1\npanel Stability\nwait 0.3\nreport-place stability-configs configs\n"
         "report-place stability-set-triangles set\nwait 0.5\nreport-place stability-run run\n"
-        "wait-until stability-running == 1\nassert phase != rendering\nwait-until stability-running == 0\n"
+        "wait-until stability-running == 1\nwait-until phase != rendering\nwait-until stability-running == 0\n"
         "assert stability-rows == 20\nwait 0.3\nscreenshot rows.png\nreport-place stability-row-5 row\n"
         "wait-until stability-evidence == 1\nreport-place stability-show show\nwait-until integrator == normal\n"
         "assert triangle == minimal\nwait-idle\nwait 0.2\nassert evidence-rays > 100\nscreenshot evidence.png\nassert "
