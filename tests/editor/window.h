@@ -51,7 +51,7 @@ protected:
                   user.empty() ? edit + "\n" : edit + " & export editor=$!\n" + find + "sh ./user.sh\nwait $editor\n");
         const std::string command = "cd '" + folder_.string() + "' && XDG_CONFIG_HOME='" + folder_.string() +
                                     "' XDG_STATE_HOME='" + folder_.string() +
-                                    "' timeout 60 xvfb-run -a -s '-screen 0 1280x720x24' sh ./both.sh > log 2>&1";
+                                    "' timeout 120 xvfb-run -a -s '-screen 0 1280x720x24' sh ./both.sh > log 2>&1";
         const int status = std::system(command.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
