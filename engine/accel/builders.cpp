@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/accel/build_auto.h"
 #include "engine/accel/build_binned.h"
 #include "engine/accel/build_linear.h"
 #include "engine/accel/build_simple.h"
@@ -22,16 +23,17 @@ Bvh overBoxes(const BuildInput& input, const BvhConfig& config, const BuildContr
 }
 
 constexpr std::array kBuilders = {
+    BuilderInfo{"auto", "binned; spatial for meshes whose boxes overlap much; the default"},
     BuilderInfo{"midpoint", "halves the longest axis of the centroids in space; fast to build, slow to trace"},
     BuilderInfo{"median", "halves the primitives on the longest axis of their centroids; the most even tree"},
-    BuilderInfo{"binned", "surface area heuristic over binned centroids; the default"},
+    BuilderInfo{"binned", "surface area heuristic over binned centroids"},
     BuilderInfo{"sweep", "surface area heuristic over all centroids; what binned approximates"},
     BuilderInfo{"spatial", "binned, and splits long triangles in space; best for rooms and buildings"},
     BuilderInfo{"linear", "merges neighbours along a space-filling curve; the fastest, for edits"},
 };
 constexpr std::array<Build, kBuilders.size()> kBuilds = {
-    overBoxes<buildMidpoint>, overBoxes<buildMedian>, overBoxes<buildBinned>,
-    overBoxes<buildSweep>,    buildSpatial,           overBoxes<buildLinear>,
+    buildAuto,             overBoxes<buildMidpoint>, overBoxes<buildMedian>, overBoxes<buildBinned>,
+    overBoxes<buildSweep>, buildSpatial,             overBoxes<buildLinear>,
 };
 
 Build findBuilder(std::string_view name) {

@@ -20,7 +20,7 @@ struct BuilderInfo {
 std::span<const BuilderInfo> builders();
 std::vector<std::string> builderNames();
 
-constexpr std::string_view kDefaultBuilder = "binned";
+constexpr std::string_view kDefaultBuilder = "auto";
 
 /// Builds a tree by name, in parallel; the bytes are the same for any number of threads, the depth is never above
 /// config.maxDepth, and primitives without a usable() box are left out and counted. Throws Error for a name that is not

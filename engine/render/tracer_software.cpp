@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/stopwatch.h"
+#include "engine/gpu/subgroups.h"
 #include "engine/render/kernel_file.h"
 #include "engine/render/triangle_record.h"
 #include "shaders/shared/bindings.h"
@@ -28,6 +29,9 @@ void SoftwareTracer::build(Device& device, const Scene& scene, const TraceConfig
                             const BuildControl& control) {
     Stopwatch watch;
     blocks_ = !config.layout.empty() && findLayout(config.layout).blocks;
+    if (blocks_)
+        requireSubgroups(device, VK_SUBGROUP_FEATURE_VOTE_BIT, "--layout " + config.layout, "votes",
+                         "use --layout bvh2q, or another device (raylab devices)");
     traversal_ = config.layout.empty() ? std::string(info_.name) : config.layout;
     triangleTest_ = findTriangleTest(config.triangle);
     slabTest_ = config.paddedSlab ? shared::kSlabPadded : shared::kSlabPlain;

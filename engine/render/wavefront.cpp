@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/error.h"
+#include "engine/gpu/subgroups.h"
 #include "engine/render/kernel_file.h"
 #include "engine/render/render_constants.h"
 #include "shaders/shared/bindings.h"
@@ -19,17 +20,6 @@ constexpr uint32_t kArraysUnsorted = 2;
 constexpr uint32_t kArraysSorted = 4;
 
 bool sortsRays(uint32_t order) { return order == shared::kOrderOctant || order == shared::kOrderOrigin; }
-
-void requireBallot(const Device& device) {
-    VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    properties.pNext = &subgroups;
-    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
-    if ((subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) == 0)
-        throw Error("--schedule wavefront: " + device.description().name +
-                        " has no subgroup ballots; use --schedule mega, or another device (raylab devices)",
-                    ExitCode::noDevice);
-}
 
 /// Of a number of groups that holds so many lanes.
 uint32_t groupsOf(uint32_t lanes) { return (lanes + shared::kWorkgroupSize - 1) / shared::kWorkgroupSize; }
@@ -61,7 +51,8 @@ std::optional<WavefrontPlan> planWavefront(const Device& device, const PreparedS
     if (settings.integrator != "path")
         throw Error("--schedule wavefront is for --integrator path; --integrator " + settings.integrator +
                     " wants --schedule mega");
-    requireBallot(device);
+    requireSubgroups(device, VK_SUBGROUP_FEATURE_BALLOT_BIT, "--schedule wavefront", "ballots",
+                     "use --schedule mega, or another device (raylab devices)");
     constexpr uint32_t lights = shared::kNeedEmissive | shared::kNeedPunctual | shared::kNeedEnvironment;
     WavefrontPlan plan;
     plan.words = shared::pathWordCount(prepared.kernelNeeds, prepared.gpu->hasLightTree() ? 1 : 0);

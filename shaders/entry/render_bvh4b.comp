@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
 #include "trace/bvh4b.glsl"
 #include "film/compute.glsl"
 #include "film/render_main.glsl"

@@ -1,7 +1,8 @@
 // Software traversal of a 4-wide BVH of 48-byte blocks, each a node or a triangle (engine/accel/layout_bvh4b.h): boxes of
 // 8 bits in a local frame, after Ylitie, Karras and Laine, HPG 2017. A step fetches one block and does with it what it is
 // for: on lavapipe a fetch costs by its number and arithmetic is cheap, so that doing both in every step and taking the one
-// result is faster than letting lanes wait for each other at nodes and at leaves. What is left of a node is one entry of the stack,
+// result is faster than letting lanes wait for each other at nodes and at leaves; what no lane is at is left out by a vote, which is a
+// jump there, and there is one loop, as a second would mask every store (docs/bvh.md). What is left of a node is one entry of the stack,
 // children by distance. Two levels where the scene has instances.
 #ifndef RAYLAB_TRACE_BVH4B_GLSL
 #define RAYLAB_TRACE_BVH4B_GLSL
@@ -13,8 +14,6 @@ const uint kNoChildren = 1u;         // a group's low bits: see walk_bvh4b.h
 const uint kGroupBits = 7u;
 const uint kGroupMask = 127u;
 const int kNotHit = 0x7fffffff;
-// Lanes that wait for an alpha test, at a quadric or at an instance are served after so many steps of the others.
-const int kStepsBvh4b = (kNeeds & (kNeedAlpha | kNeedInstancing | kNeedQuadrics)) != 0u ? 8 : 0x7fffffff;
 
 // The children of the node in w0 to w2 that the ray meets: their numbers, two bits each, nearest first, ended by a 1.
 uint childrenBvh4b(SlabRay ray, uvec4 w0, uvec4 w1, uvec2 w2, int tMin, int tMax, bool isNode) {
@@ -45,6 +44,17 @@ uint childrenBvh4b(SlabRay ray, uvec4 w0, uvec4 w1, uvec2 w2, int tMin, int tMax
     return ((sorted.x | sorted.y << 2 | sorted.z << 4 | sorted.w << 6) & (end - 1u)) | end;
 }
 
+// The triangle in a block. Its alpha is tested at once where any lane has to.
+void testBlock(Ray ray, ObjectRay object, uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, bool isTriangle, inout Candidate hit) {
+    Candidate found = hit;
+    considerTriangle(ray, object.triangle, w0, w1, w2, w3, object.instance, isTriangle, found);
+    if (needs(kNeedAlpha) && subgroupAny(found.untested)) {
+        if (found.untested && !acceptsUntested(found, ray.key)) found = hit;
+        found.untested = false;
+    }
+    hit = found;
+}
+
 bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     hit = noCandidate(ray.tMax);
     ++tracedRays;
@@ -59,76 +69,51 @@ bool findHit(Ray ray, bool anyHit, out Candidate hit) {
     uint group = kNoChildren;
     uint block = frame.root;
     int tMin = floatBitsToInt(ray.tMin);
-    Candidate waiting = hit;  // for its alpha test
-    bool enter = false;       // a leaf of the upper tree, by `slot`
-    uint slot = 0u;
-    uint quadric = kLastBlock;  // a block that holds one
-    while (block != kLastBlock || waiting.untested || quadric != kLastBlock) {
-        for (int step = 0; step < kStepsBvh4b && block != kLastBlock && !waiting.untested && !enter && quadric == kLastBlock; ++step) {
-            int at = int(block * kWordsTraceTriangle);
-            uvec4 w0 = texelFetch(nodeWords, at);
-            uvec4 w1 = texelFetch(nodeWords, at + 1);
-            uvec4 w2 = texelFetch(nodeWords, at + 2);
-            uvec4 w3 = uvec4(0u);
-            if (kWordsTraceTriangle > 3u) w3 = texelFetch(nodeWords, at + 3);
-            bool isLeaf = w0.w >= kBlockIsLeaf;
-            bool isTriangle = isLeaf && !upper;
-            if (needs(kNeedQuadrics) && isTriangle && (w0.w & kSlotIsQuadric) != 0u) {
-                quadric = block;
-                isTriangle = false;
-            }
+    while (block != kLastBlock) {
+        int at = int(block * kWordsTraceTriangle);
+        uvec4 w0 = texelFetch(nodeWords, at);
+        uvec4 w1 = texelFetch(nodeWords, at + 1);
+        uvec4 w2 = texelFetch(nodeWords, at + 2);
+        uvec4 w3 = uvec4(0u);
+        if (kWordsTraceTriangle > 3u) w3 = texelFetch(nodeWords, at + 3);
+        bool isLeaf = w0.w >= kBlockIsLeaf;
+        bool enter = isLeaf && upper;
+        bool isQuadric = needs(kNeedQuadrics) && isLeaf && !upper && (w0.w & kSlotIsQuadric) != 0u;
+        bool isTriangle = isLeaf && !upper && !isQuadric;
 
-            SlabRay slab = object.slab;
-            if (needs(kNeedInstancing)) slab = selectSlabRay(upper, object.slab, world);
-            uint children = childrenBvh4b(slab, w0, w1, w2.xy, tMin, floatBitsToInt(hit.t), !isLeaf);
-            uint met = uint(findMSB(children)) >> 1;
-            if (isLeaf)
-                countLeafStep(top);
-            else
-                countNode(((w0.w >> 24) & 3u) + 1u, met, top);
-            Candidate found = hit;
-            considerTriangle(ray, object.triangle, w0, w1, w2, w3, object.instance, isTriangle, found);
-            if (needs(kNeedAlpha)) waiting = found;
-            if (!needs(kNeedAlpha) || !found.untested) hit = found;
+        SlabRay slab = object.slab;
+        if (needs(kNeedInstancing)) slab = selectSlabRay(upper, object.slab, world);
+        uint children = childrenBvh4b(slab, w0, w1, w2.xy, tMin, floatBitsToInt(hit.t), !isLeaf);
+        uint met = uint(findMSB(children)) >> 1;
+        if (isLeaf)
+            countLeafStep(top);
+        else
+            countNode(((w0.w >> 24) & 3u) + 1u, met, top);
+        if (subgroupAny(isTriangle)) testBlock(ray, object, w0, w1, w2, w3, isTriangle, hit);
+        if (needs(kNeedQuadrics) && isQuadric) considerQuadric(ray, object.triangle, w0, w1, w2, object.instance, hit);
 
-            bool descend = children != kNoChildren;
-            enter = isLeaf && upper;
-            bool hasRest = (group & kGroupMask) != kNoChildren;
-            bool push = hasRest && (descend || enter);
-            bool pop = !hasRest && !descend && !enter;
-            uint from = hasRest ? group : stack[top];
-            stack[top + 1] = group;
-            if (needs(kNeedInstancing)) upper = upper || (pop && top <= floor);
-            top += push ? 1 : (pop ? -1 : 0);
-            block = descend ? w2.z + (children & 3u) : (from >> kGroupBits) + (from & 3u);
-            group = descend ? (w2.z << kGroupBits) | (children >> 2) : (from & ~kGroupMask) | ((from & kGroupMask) >> 2);
-            if (needs(kNeedInstancing)) {
-                slot = w0.w & kInstanceMask;
-                block = enter ? 0u : block;
-                group = enter ? kNoChildren : group;
-            }
-            if (anyHit && hit.instance != kInheritInstance) block = kLastBlock;
-        }
-        if (needs(kNeedInstancing) && enter) {
-            object = enterObject(ray, slot, block);
-            floor = top;
-            upper = false;
-            enter = false;
-        }
-        if (needs(kNeedQuadrics) && quadric != kLastBlock) {
-            int at = int(quadric * kWordsTraceTriangle);
-            considerQuadric(ray, object.triangle, texelFetch(nodeWords, at), texelFetch(nodeWords, at + 1),
-                            texelFetch(nodeWords, at + 2), object.instance, hit);
-            quadric = kLastBlock;
-            if (anyHit && hit.instance != kInheritInstance) block = kLastBlock;
-        }
-        if (needs(kNeedAlpha) && waiting.untested) {
-            waiting.untested = false;
-            if (acceptsUntested(waiting, ray.key)) {
-                hit = waiting;
-                if (anyHit) block = kLastBlock;
+        bool descend = children != kNoChildren;
+        bool hasRest = (group & kGroupMask) != kNoChildren;
+        bool push = hasRest && (descend || enter);
+        bool pop = !hasRest && !descend && !enter;
+        uint from = hasRest ? group : stack[top];
+        stack[top + 1] = group;
+        if (needs(kNeedInstancing)) upper = upper || (pop && top <= floor);
+        top += push ? 1 : (pop ? -1 : 0);
+        block = descend ? w2.z + (children & 3u) : (from >> kGroupBits) + (from & 3u);
+        group = descend ? (w2.z << kGroupBits) | (children >> 2) : (from & ~kGroupMask) | ((from & kGroupMask) >> 2);
+        if (needs(kNeedInstancing) && subgroupAny(enter)) {
+            uint root;
+            ObjectRay entered = enterObject(ray, w0.w & kInstanceMask, root);
+            if (enter) {
+                object = entered;
+                block = root;
+                group = kNoChildren;
+                floor = top;
+                upper = false;
             }
         }
+        if (anyHit && hit.instance != kInheritInstance) block = kLastBlock;
     }
     return hit.instance != kInheritInstance;
 }

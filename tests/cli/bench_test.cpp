@@ -47,7 +47,7 @@ TEST_F(Bench, RowsSayWhatOthersRelyOn) {
         if (row["tracer"] != "software") continue;
         layouts.insert(row["layout"].get<std::string>());
         EXPECT_EQ(row["triangle"], "watertight");
-        EXPECT_EQ(row["builder"], "binned");
+        EXPECT_EQ(row["builder"], "auto");
         EXPECT_EQ(row["variation"], "");
         // At least a node of 48 bytes and the instance.
         EXPECT_GE(row["perRay"]["bytes"], 48.0);

@@ -67,7 +67,7 @@ TEST_F(IdenticalHits, SoupWithDuplicates) {
 std::vector<RenderSettings> layoutsAndBuilders() {
     std::vector<RenderSettings> choices = everyLayout();
     for (const BuilderInfo& builder : builders()) {
-        if (builder.name == "binned" || builder.name == "median") continue;
+        if (builder.name == kDefaultBuilder || builder.name == "median") continue;
         choices.emplace_back();
         choices.back().builder = builder.name;
     }
