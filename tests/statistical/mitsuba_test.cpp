@@ -30,7 +30,7 @@ constexpr double kLeastVariance = 1e-4 / 128.0;
 const double kHalfHeight = std::hypot(36.0, 24.0) / 100.0 / std::sqrt(2.0);
 constexpr double kAir = 1.000277, kBk7 = 1.5046, kDiamond = 2.419;
 /// n = .789, k = 6.15 along the normal. Beyond, Schlick's approximation is .25 % off the conductor's equations at the
-/// angle of kSteep and 2.6 % at 60 degrees.
+/// angle of kSteep and 1.7 % at 60 degrees.
 constexpr float kConductor = 0.9230676f;
 constexpr double kSteep = 0.64;
 /// Rays that pass the middle of a ball between these distances, in radii, decide nothing: an interpolated normal looks
