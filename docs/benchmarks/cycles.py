@@ -3,7 +3,8 @@
     blender -b --factory-startup -noaudio --python cycles.py -- FILE.glb WIDTH HEIGHT SPP SEED DEPTH OUT.exr [CAMERA] [WHITE]
 
 One sample first, so that reading the scene and its BVH are not in the time printed. SPEC0=1: no dielectric reflection,
-which the glTF importer of Blender 3.4 gives to every material.
+which the glTF importer of Blender 3.4 gives to every material. LAMBERT=1: Lambert's diffuse and the emission alone, in
+place of the importer's Principled BSDF, whose diffuse is Burley's.
 """
 import os
 import sys
@@ -23,6 +24,16 @@ if os.environ.get("SPEC0"):
         if m.use_nodes:
             for n in m.node_tree.nodes:
                 if n.type == "BSDF_PRINCIPLED": n.inputs["Specular"].default_value = 0
+if os.environ.get("LAMBERT"):
+    for m in bpy.data.materials:
+        for n in [n for n in m.node_tree.nodes if n.type == "BSDF_PRINCIPLED"] if m.use_nodes else []:
+            add, diffuse, emission = (m.node_tree.nodes.new("ShaderNode" + kind) for kind in ("AddShader", "BsdfDiffuse", "Emission"))
+            diffuse.inputs["Color"].default_value = n.inputs["Base Color"].default_value
+            emission.inputs["Color"].default_value = n.inputs["Emission"].default_value
+            emission.inputs["Strength"].default_value = n.inputs["Emission Strength"].default_value
+            m.node_tree.links.new(diffuse.outputs[0], add.inputs[0])
+            m.node_tree.links.new(emission.outputs[0], add.inputs[1])
+            for link in list(n.outputs[0].links): m.node_tree.links.new(add.outputs[0], link.to_socket)
 s.render.engine = 'CYCLES'
 c = s.cycles
 c.device = 'CPU'; c.samples = spp; c.seed = seed; c.use_adaptive_sampling = False; c.use_denoising = False

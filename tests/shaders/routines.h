@@ -16,6 +16,8 @@ RAYLAB_CONST uint kRoutineDisc = 4;         // point
 RAYLAB_CONST uint kRoutineFilter = 5;       // place in the image, from the pixel's corner
 RAYLAB_CONST uint kRoutineEnvironment = 6;  // direction, density
 RAYLAB_CONST uint kRoutineRectangle = 7;    // point of a lamp, its density, that of the ray which comes upon it
+RAYLAB_CONST uint kRoutineSphere = 8;       // direction to a sphere's light, density
+RAYLAB_CONST uint kRoutineSunDisc = 9;      // direction to the sun, density
 
 RAYLAB_CONST uint kRoutineChooseLight = 0;  // tests/shaders/light_choice.comp: a light and its probability, by hashed numbers
 RAYLAB_CONST uint kRoutineLightTrail = 1;   // the probability of the light at the end of a trail

@@ -26,6 +26,26 @@ vec4 drawRectangle(vec2 u) {
     return vec4((push.wo + at.distance * at.direction).xy, at.pdf, met.pdf);
 }
 
+// Of a sphere of radius `alpha` around the origin, seen from `wo`.
+vec4 drawSphere(vec2 u) {
+    PunctualData light;
+    light.kind = kPunctualSphere;
+    light.position = vec3(0.0);
+    light.shape = vec3(push.alpha, 0.0, 0.0);
+    ShapePoint at = sampleShape(light, push.wo, u);
+    return vec4(at.direction, at.pdf);
+}
+
+// Of a disc in the sky towards `wo`, of 1 - cosine `alpha`.
+vec4 drawSunDisc(vec2 u) {
+    PunctualData light;
+    light.kind = kPunctualSunDisc;
+    light.direction = -push.wo;
+    light.shape = vec3(push.alpha, 0.0, 0.0);
+    ShapePoint at = sampleShape(light, vec3(0.0), u);
+    return vec4(at.direction, at.pdf);
+}
+
 vec4 draw(vec2 u, vec2 v) {
     float pdf = 0.0;
     if (kRoutine == kRoutineCosine) {
@@ -37,6 +57,8 @@ vec4 draw(vec2 u, vec2 v) {
     if (kRoutine == kRoutineDisc) return vec4(sampleDisc(u), 0.0, 0.0);
     if (kRoutine == kRoutineFilter) return vec4(sampleFilter(u), 0.0, 0.0);
     if (kRoutine == kRoutineRectangle) return drawRectangle(u);
+    if (kRoutine == kRoutineSphere) return drawSphere(u);
+    if (kRoutine == kRoutineSunDisc) return drawSunDisc(u);
     if (kRoutine == kRoutineEnvironment) {
         vec3 direction = sampleEnvironment(u, v);
         environmentRadiance(direction, pdf);

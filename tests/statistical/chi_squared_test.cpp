@@ -18,7 +18,7 @@ namespace {
 using ChiSquared = GpuTest;
 
 /// Number of calls of expectFits in this file; each test may then fail at random with probability .01 over all (Sidak).
-constexpr double kTests = 29.0;
+constexpr double kTests = 33.0;
 
 constexpr int kColumns = 32, kRows = 16;
 
@@ -205,6 +205,45 @@ TEST_F(ChiSquared, EnvironmentMap) {
     expectFits(countBins(drawSamples(device_, config), place), bins, "environment map");
 }
 
+/// Directions within a cone about `axis`, evenly over its solid angle: azimuth, and 1 - cosine, from the sine where
+/// that keeps more digits, over that of the cone's edge.
+void expectEvenCone(const std::vector<glm::vec4>& samples, glm::dvec3 axis, double oneMinusCosine,
+                    const std::string& what) {
+    axis = glm::normalize(axis);
+    const glm::dvec3 x = glm::normalize(glm::cross(axis, {0.2, 0.7, -0.4})), y = glm::cross(axis, x);
+    const auto place = [&](glm::vec4 s) {
+        const glm::dvec3 d(s);
+        const double cosine = glm::dot(d, axis);
+        const glm::dvec2 aside(glm::dot(d, x), glm::dot(d, y));
+        const double k = cosine > 0.5 ? glm::dot(aside, aside) / (1.0 + cosine) : 1.0 - cosine;
+        return glm::dvec2(std::atan2(aside.y, aside.x) / (2.0 * kPi) + 0.5, k / oneMinusCosine * (1.0 - 1e-5));
+    };
+    expectFits(countBins(samples, place), uniformBins(), what);
+    const double density = 1.0 / (2.0 * kPi * oneMinusCosine);
+    for (size_t i = 0; i < samples.size(); i += 1000)
+        EXPECT_NEAR(static_cast<double>(samples[i].w), density, 2e-5 * density) << what;
+}
+
+/// Spheres from close by and from afar, and the sun as it is seen and a hundred times as wide.
+TEST_F(ChiSquared, SphereAndSunByCone) {
+    DrawConfig config;
+    config.routine = shared::kRoutineSphere;
+    config.alpha = 0.6f;
+    for (const glm::vec3 receiver : {glm::vec3(0.3f, -0.5f, 0.4f), glm::vec3(3.0f, 7.0f, -5.0f)}) {
+        config.wo = receiver;
+        const double sine = static_cast<double>(config.alpha) / glm::length(glm::dvec3(receiver));
+        expectEvenCone(drawSamples(device_, config), -glm::dvec3(receiver),
+                       sine * sine / (1.0 + std::sqrt(1.0 - sine * sine)), "sphere");
+    }
+    config.routine = shared::kRoutineSunDisc;
+    config.wo = glm::normalize(glm::vec3(0.3f, 0.8f, -0.2f));
+    for (const double half : {0.00465, 0.465}) {
+        const double oneMinusCosine = 2.0 * std::sin(0.5 * half) * std::sin(0.5 * half);
+        config.alpha = static_cast<float>(oneMinusCosine);
+        expectEvenCone(drawSamples(device_, config), config.wo, oneMinusCosine, "sun");
+    }
+}
+
 /// Solid angle of the rectangle between the origin's foot and (x, y), at height h: its closed form, signed by x and y.
 double cornerAngle(double x, double y, double h) { return std::atan(x * y / (h * std::sqrt(x * x + y * y + h * h))); }
 
@@ -214,7 +253,8 @@ double rectangleAngle(glm::dvec2 low, glm::dvec2 high, double h) {
 }
 
 /// Each part of a rectangle lamp gets samples by its solid angle, wherever it is seen from: closely over its middle and
-/// beyond an edge, from nearly within its plane, from afar. Far away the area serves, and the density is that of a point.
+/// beyond an edge, from nearly within its plane, from afar. Far away the area serves, and the density is that of a
+/// point.
 TEST_F(ChiSquared, RectangleBySolidAngle) {
     const glm::vec3 receivers[] = {{0.4f, 0.3f, 0.2f}, {-1.0f, 0.1f, 0.7f}, {1.2f, -0.3f, 0.05f}, {3.0f, 4.0f, 5.0f}};
     for (const glm::vec3 receiver : receivers) {
