@@ -39,6 +39,12 @@ constexpr double kIdleSeconds = 0.5;    ///< between frames while nothing happen
 constexpr uint32_t kSwapchainImages = 3;
 constexpr int kSettlingFrames = 3;      ///< that ImGui wants after an event
 
+using Clock = std::chrono::steady_clock;
+
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
 class Editor {
 public:
     explicit Editor(const EditorOptions& options)
@@ -83,6 +89,7 @@ public:
     ExitCode run() {
         while (!quit_) {
             window_.waitEvents(waitSeconds());
+            frameStart_ = Clock::now();
             if (window_.hasNewEvents()) settling_ = kSettlingFrames;
             background_.collect();
             measuring_.collect();
@@ -190,11 +197,13 @@ private:
                 imgui_.draw(commands);
             }};
         Image8 copy;
+        const Clock::time_point built = Clock::now();
         const bool shown = swapchain_->present(window_.framebufferSize(), recorder, screenshot_.empty() ? nullptr : &copy);
         images_.endFrame();
         if (!shown) return;
         if (window_.hasNewEvents())
-            latency_.record(std::chrono::duration<double>(std::chrono::steady_clock::now() - window_.oldestEvent()).count());
+            latency_.record({secondsBetween(window_.oldestEvent(), frameStart_), secondsBetween(frameStart_, built),
+                             secondsBetween(built, Clock::now())});
         if (!screenshot_.empty()) writeFileAtomically(screenshot_, encodePng8(copy.texels, copy.width, copy.height));
         screenshot_.clear();
     }
@@ -308,6 +317,7 @@ private:
     std::filesystem::path screenshot_;        ///< of the window, to be written with the next frame
     EditorContext context_;
     RenderRequest requested_;
+    Clock::time_point frameStart_;
     Stopwatch sinceFrame_;
     Stopwatch sinceMove_;
     bool moving_ = false;
