@@ -34,7 +34,7 @@ namespace raylab {
 namespace {
 
 constexpr double kRestSeconds = 0.2;    ///< without a movement, until the picture is a full one again
-constexpr double kFrameSeconds = 0.015; ///< between frames while something moves
+constexpr double kFrameSeconds = 0.015; ///< from frame to frame while something moves or settles
 constexpr double kIdleSeconds = 0.5;    ///< between frames while nothing happens
 constexpr uint32_t kSwapchainImages = 3;
 constexpr int kSettlingFrames = 3;      ///< that ImGui wants after an event
@@ -51,7 +51,7 @@ public:
         : config_(loadConfig()),
           window_(config_.windowWidth, config_.windowHeight, options.settings.device, options.settings.validation),
           swapchain_(std::make_unique<Swapchain>(window_.device(), window_.surface())),
-          imgui_(window_.get(), window_.device(), swapchain_->renderPass(), kSwapchainImages, window_.scale()),
+          imgui_(window_, window_.device(), swapchain_->renderPass(), kSwapchainImages, window_.scale()),
           images_(window_.device(), swapchain_->renderPass()),
           background_(wakeWindow),
           measuring_(wakeWindow),
@@ -112,10 +112,11 @@ public:
     }
 
 private:
+    /// An event ends the wait: it should rarely meet a frame that is being drawn, and wait for its end.
     double waitSeconds() const {
-        if (settling_ > 0) return 0.001;
-        return script_ != nullptr || context_.viewMoves || moving_ ? kFrameSeconds
-                                                                   : std::min(kIdleSeconds, context_.redrawSeconds);
+        if (settling_ > 0 || context_.viewMoves || moving_) return kFrameSeconds;
+        const double rest = std::min(kIdleSeconds, context_.redrawSeconds);
+        return script_ == nullptr ? rest : std::min(std::max(script_->restSeconds(), kFrameSeconds), rest);
     }
 
     /// What the frame will show.
