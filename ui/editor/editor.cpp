@@ -34,10 +34,16 @@ namespace raylab {
 namespace {
 
 constexpr double kRestSeconds = 0.2;    ///< without a movement, until the picture is a full one again
-constexpr double kFrameSeconds = 0.015; ///< between frames while something moves
+constexpr double kFrameSeconds = 0.015; ///< from frame to frame while something moves or settles
 constexpr double kIdleSeconds = 0.5;    ///< between frames while nothing happens
 constexpr uint32_t kSwapchainImages = 3;
 constexpr int kSettlingFrames = 3;      ///< that ImGui wants after an event
+
+using Clock = std::chrono::steady_clock;
+
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
 
 class Editor {
 public:
@@ -45,7 +51,7 @@ public:
         : config_(loadConfig()),
           window_(config_.windowWidth, config_.windowHeight, options.settings.device, options.settings.validation),
           swapchain_(std::make_unique<Swapchain>(window_.device(), window_.surface())),
-          imgui_(window_.get(), window_.device(), swapchain_->renderPass(), kSwapchainImages, window_.scale()),
+          imgui_(window_, window_.device(), swapchain_->renderPass(), kSwapchainImages, window_.scale()),
           images_(window_.device(), swapchain_->renderPass()),
           background_(wakeWindow),
           measuring_(wakeWindow),
@@ -83,6 +89,7 @@ public:
     ExitCode run() {
         while (!quit_) {
             window_.waitEvents(waitSeconds());
+            frameStart_ = Clock::now();
             if (window_.hasNewEvents()) settling_ = kSettlingFrames;
             background_.collect();
             measuring_.collect();
@@ -105,10 +112,11 @@ public:
     }
 
 private:
+    /// An event ends the wait: it should rarely meet a frame that is being drawn, and wait for its end.
     double waitSeconds() const {
-        if (settling_ > 0) return 0.001;
-        return script_ != nullptr || context_.viewMoves || moving_ ? kFrameSeconds
-                                                                   : std::min(kIdleSeconds, context_.redrawSeconds);
+        if (settling_ > 0 || context_.viewMoves || moving_) return kFrameSeconds;
+        const double rest = std::min(kIdleSeconds, context_.redrawSeconds);
+        return script_ == nullptr ? rest : std::min(std::max(script_->restSeconds(), kFrameSeconds), rest);
     }
 
     /// What the frame will show.
@@ -190,11 +198,13 @@ private:
                 imgui_.draw(commands);
             }};
         Image8 copy;
+        const Clock::time_point built = Clock::now();
         const bool shown = swapchain_->present(window_.framebufferSize(), recorder, screenshot_.empty() ? nullptr : &copy);
         images_.endFrame();
         if (!shown) return;
         if (window_.hasNewEvents())
-            latency_.record(std::chrono::duration<double>(std::chrono::steady_clock::now() - window_.oldestEvent()).count());
+            latency_.record({secondsBetween(window_.oldestEvent(), frameStart_), secondsBetween(frameStart_, built),
+                             secondsBetween(built, Clock::now())});
         if (!screenshot_.empty()) writeFileAtomically(screenshot_, encodePng8(copy.texels, copy.width, copy.height));
         screenshot_.clear();
     }
@@ -308,6 +318,7 @@ private:
     std::filesystem::path screenshot_;        ///< of the window, to be written with the next frame
     EditorContext context_;
     RenderRequest requested_;
+    Clock::time_point frameStart_;
     Stopwatch sinceFrame_;
     Stopwatch sinceMove_;
     bool moving_ = false;

@@ -72,7 +72,8 @@ void ImagePainter::releaseDevice() {
     for (const std::weak_ptr<UiImage>& image : images_)
         if (const UiImagePtr there = image.lock()) release(*there);
     images_.clear();
-    pipeline_ = {};
+    blending_ = {};
+    opaque_ = {};
     layout_ = {};
     setLayout_ = {};
     sharp_ = {};
@@ -103,7 +104,8 @@ void ImagePainter::useDevice(Device& device, VkRenderPass renderPass) {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout), "vkCreatePipelineLayout");
     layout_ = {device.get(), layout};
-    createPipeline(renderPass);
+    blending_ = makePipeline(renderPass, true);
+    opaque_ = makePipeline(renderPass, false);
 }
 
 SamplerHandle ImagePainter::makeSampler(VkFilter filter) const {
@@ -118,7 +120,7 @@ SamplerHandle ImagePainter::makeSampler(VkFilter filter) const {
     return {device_->get(), sampler};
 }
 
-void ImagePainter::createPipeline(VkRenderPass renderPass) {
+PipelineHandle ImagePainter::makePipeline(VkRenderPass renderPass, bool blends) const {
     const std::filesystem::path folder = dataFolder("shaders");
     const ShaderModuleHandle vertex = loadModule(*device_, folder / "editor_image.vert.spv", {});
     const ShaderModuleHandle fragment = loadModule(*device_, folder / "editor_image.frag.spv", {});
@@ -135,7 +137,7 @@ void ImagePainter::createPipeline(VkRenderPass renderPass) {
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     VkPipelineColorBlendAttachmentState blend{};
-    blend.blendEnable = VK_TRUE;
+    blend.blendEnable = blends ? VK_TRUE : VK_FALSE;
     blend.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
     blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
     blend.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
@@ -164,7 +166,7 @@ void ImagePainter::createPipeline(VkRenderPass renderPass) {
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateGraphicsPipelines(device_->get(), device_->pipelineCache(), 1, &info, nullptr, &pipeline),
           "vkCreateGraphicsPipelines");
-    pipeline_ = {device_->get(), pipeline};
+    return {device_->get(), pipeline};
 }
 
 void ImagePainter::create(UiImage& image) const {
@@ -232,6 +234,7 @@ void ImagePainter::setTexels(UiImagePtr& image, std::span<const uint32_t> texels
         image->height = height;
     }
     image->texels.assign(texels.begin(), texels.end());
+    image->isOpaque = std::ranges::all_of(texels, [](uint32_t texel) { return texel >= 0xff000000u; });
     fill(image);
 }
 
@@ -290,6 +293,17 @@ void ImagePainter::onDraw(const ImDrawList* /*list*/, const ImDrawCmd* command) 
     quad.painter->drawQuad(quad);
 }
 
+bool ImagePainter::showsTexelsAsPixels(const Quad& quad) const {
+    const std::array<float, 2> texels = {static_cast<float>(quad.image->width), static_cast<float>(quad.image->height)};
+    for (size_t i = 0; i < 2; ++i) {
+        const float pixels = pixels_ * (quad.corners[2 + i] - quad.corners[i]);
+        const float start = pixels_ * (quad.corners[i] - origin_[i]);
+        if (std::abs((quad.uv[2 + i] - quad.uv[i]) * texels[i] - pixels) > 1e-2f) return false;
+        if (std::abs(start - std::round(start)) > 1e-3f) return false;
+    }
+    return true;
+}
+
 void ImagePainter::drawQuad(const Quad& quad) const {
     const auto pixel = [&](int i) {
         const int axis = i % 2;
@@ -304,8 +318,10 @@ void ImagePainter::drawQuad(const Quad& quad) const {
         push[i] = 2.0f * (quad.corners[i] - origin_[i % 2]) / size_[i % 2] - 1.0f;
         push[4 + i] = quad.uv[i];
     }
-    const VkDescriptorSet set = quad.sharp ? quad.image->sharp : quad.image->smooth;
-    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+    // Neither blended nor filtered where that changes nothing: lavapipe pays for both.
+    const VkDescriptorSet set = quad.sharp || showsTexelsAsPixels(quad) ? quad.image->sharp : quad.image->smooth;
+    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      quad.image->isOpaque ? opaque_.get() : blending_.get());
     vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0, nullptr);
     vkCmdSetScissor(commands_, 0, 1, &scissor);
     vkCmdPushConstants(commands_, layout_.get(), VK_SHADER_STAGE_VERTEX_BIT, 0, kPushBytes, push.data());

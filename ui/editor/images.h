@@ -20,6 +20,7 @@ struct UiImage {
     uint32_t width = 0;
     uint32_t height = 0;
     std::vector<uint32_t> texels;  ///< the host's copy, which outlives a device
+    bool isOpaque = false;         ///< every texel
     bool written = false;          ///< the image has had texels before
     Buffer staging;
     MemoryHandle memory;
@@ -70,19 +71,20 @@ private:
     };
     static void onDraw(const ImDrawList* list, const ImDrawCmd* command);
     void drawQuad(const Quad& quad) const;
+    bool showsTexelsAsPixels(const Quad& quad) const;
     void fill(const UiImagePtr& image);
     void create(UiImage& image) const;
     void release(UiImage& image) const;
     void createSets(UiImage& image) const;
     VkDescriptorSet makeSet(const UiImage& image, VkSampler sampler) const;
-    void createPipeline(VkRenderPass renderPass);
+    PipelineHandle makePipeline(VkRenderPass renderPass, bool blends) const;
     SamplerHandle makeSampler(VkFilter filter) const;
 
     Device* device_ = nullptr;
     SamplerHandle smooth_, sharp_;
     DescriptorSetLayoutHandle setLayout_;
     PipelineLayoutHandle layout_;
-    PipelineHandle pipeline_;
+    PipelineHandle blending_, opaque_;
     std::deque<Quad> quads_;  ///< of this frame; callbacks point to them
     std::vector<UiImagePtr> uploads_;
     std::vector<std::weak_ptr<UiImage>> images_;  ///< all that are on the device

@@ -3,12 +3,15 @@
 #include <array>
 #include <optional>
 
+#include "engine/core/stopwatch.h"
 #include "engine/gpu/device.h"
 #include "ui/editor/handles.h"
 
-struct GLFWwindow;
+struct GLFWcursor;
 
 namespace raylab {
+
+class Window;
 
 /// The pointer as a script moves it, in ImGui's coordinates.
 struct PointerOverride {
@@ -22,7 +25,7 @@ struct PointerOverride {
 class ImGuiBackend {
 public:
     /// Installs callbacks in front of those that the window has. `scale`: of fonts and sizes.
-    ImGuiBackend(GLFWwindow* window, Device& device, VkRenderPass renderPass, uint32_t imageCount, float scale);
+    ImGuiBackend(const Window& window, Device& device, VkRenderPass renderPass, uint32_t imageCount, float scale);
     ~ImGuiBackend();
     ImGuiBackend(const ImGuiBackend&) = delete;
     ImGuiBackend& operator=(const ImGuiBackend&) = delete;
@@ -41,8 +44,15 @@ public:
     void draw(VkCommandBuffer commands);
 
 private:
-    GLFWwindow* window_;
+    void tellWindow();
+    void tellPointer();
+    void showCursor();
+
+    const Window& window_;
     DescriptorPoolHandle pool_;
+    std::array<GLFWcursor*, 5> cursors_{};  ///< as kCursorShapes; nullptr: the display has none
+    int cursor_ = 0;                        ///< ImGui's number of the shape that is shown
+    Stopwatch sinceFrame_;
 };
 
 }  // namespace raylab

@@ -6,21 +6,28 @@
 
 namespace raylab {
 
-/// Times from an input event to the frame that shows what it did, as seen by the process: until the device has drawn
-/// the frame and it has been handed to the display.
+/// What passes from an input event to the frame that shows what it did, in seconds.
+struct FrameTimes {
+    double waiting = 0.0;   ///< for the frame before to end
+    double building = 0.0;  ///< what the frame shows
+    double drawing = 0.0;   ///< until the device has drawn it and it has been handed to the display
+
+    double total() const { return waiting + building + drawing; }
+};
+
+/// Times from an input event to the frame that shows what it did, as seen by the process.
 class LatencyRecorder {
 public:
-    void record(double seconds) { seconds_.push_back(seconds); }
-    void clear() { seconds_.clear(); }
-    size_t count() const { return seconds_.size(); }
+    void record(const FrameTimes& times) { times_.push_back(times); }
+    void clear() { times_.clear(); }
     /// The smallest time that the part `quantile` of all times does not exceed; 0 without any.
     double quantile(double quantile) const;
-    /// {"schema": "raylab.latency/1", "frames": , "milliseconds": {"p50": , "p99": , "worst": }}. Throws Error where it
-    /// cannot be written.
+    /// {"schema": "raylab.latency/1", "frames": , "milliseconds": {"p50": , "p99": , "worst": }, "parts": {"waiting": {the
+    /// same}, "building": , "drawing": }}. Throws Error where it cannot be written.
     void write(const std::filesystem::path& path) const;
 
 private:
-    std::vector<double> seconds_;
+    std::vector<FrameTimes> times_;
 };
 
 }  // namespace raylab

@@ -67,17 +67,17 @@ float leastHeightOf(const EditorContext& context, Pane pane) {
     return panel == panelTable().end() ? 0.0f : panel->leastHeight;
 }
 
+/// Its background is what the frame begins with: filling it again takes lavapipe a fifth of a frame.
 void drawTabbedPane(EditorContext& context, Pane pane, const Box& box) {
-    beginPane(paneName(pane), box);
+    beginPane(paneName(pane), box, ImGuiWindowFlags_NoBackground);
     drawTabs(context, pane);
     ImGui::End();
 }
 
 void drawViewport(EditorContext& context, const Box& box) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.07f, 0.072f, 0.078f, 1.0f));
-    beginPane("Viewport", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    ImGui::PopStyleColor();
+    beginPane("Viewport", box,
+              ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
     drawViewportPanel(context);
     ImGui::End();

@@ -120,10 +120,12 @@ void RenderSession::report(const std::function<void(RenderStatus&)>& change) {
     wake_();
 }
 
-void RenderSession::publish(std::shared_ptr<const Picture> picture) {
+void RenderSession::publish(std::shared_ptr<const Picture> picture,
+                            const std::function<void(RenderStatus&)>& change) {
     {
         const std::lock_guard lock(mutex_);
         picture_ = std::move(picture);
+        change(status_);
     }
     wake_();
 }

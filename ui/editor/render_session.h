@@ -74,7 +74,8 @@ public:
     /// Whether a request waits that nextTask() has not given yet.
     bool hasRequest() const;
     void report(const std::function<void(RenderStatus&)>& change);
-    void publish(std::shared_ptr<const Picture> picture);
+    /// A picture, and what is said with it: one frame shows both.
+    void publish(std::shared_ptr<const Picture> picture, const std::function<void(RenderStatus&)>& change);
     void answer(const PickResult& result);
     void setValidationMessages(uint32_t count) { validationMessages_ = count; }
     void setUpdatedBytes(uint64_t bytes) { updatedBytes_ = bytes; }

@@ -29,7 +29,8 @@ constexpr int kNice = 10;
 constexpr double kSliceMs = 25.0;
 /// Unless a new request is waiting for longer than this, a moving picture is finished.
 constexpr double kPatienceSeconds = 0.2;
-constexpr double kStatusInterval = 0.1;
+/// Between words on how it goes on, which take a frame of the interface each, while no picture comes.
+constexpr double kStatusInterval = 0.25;
 
 class RenderWorker {
 public:
@@ -319,7 +320,8 @@ private:
             recovery_.forget();
             report(RenderPhase::done, reason);
         } else if (sinceStatus_.seconds() >= kStatusInterval) {
-            describeProgress(nullptr);
+            session_.report([&](RenderStatus& status) { describeProgress(nullptr, status); });
+            sinceStatus_.restart();
         }
     }
 
@@ -327,8 +329,8 @@ private:
         const Stopwatch watch;
         const std::shared_ptr<Picture> picture = pictures_.make(*renderer_, wanted_.settings);
         picture->hits = lookBehind(picture->width, picture->height);
-        session_.publish(picture);
-        describeProgress(picture->film.get());
+        session_.publish(picture, [&](RenderStatus& status) { describeProgress(picture->film.get(), status); });
+        sinceStatus_.restart();
         pictures_.finish(watch.seconds());
     }
 
@@ -343,13 +345,10 @@ private:
         session_.report([&](RenderStatus& status) { describeKernel(*renderer_, status); });
     }
 
-    void describeProgress(const FilmImage* film) {
-        session_.report([&](RenderStatus& status) {
-            describeFilm(*renderer_, wanted_.settings, film, status);
-            status.relativeError = pictures_.noise();
-            status.divisor = divisor_;
-        });
-        sinceStatus_.restart();
+    void describeProgress(const FilmImage* film, RenderStatus& status) const {
+        describeFilm(*renderer_, wanted_.settings, film, status);
+        status.relativeError = pictures_.noise();
+        status.divisor = divisor_;
     }
 
     void answerPick(const RenderSession::PickTask& task) {

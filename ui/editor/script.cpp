@@ -146,6 +146,7 @@ bool Script::step(ScriptHost& host) {
         if (lines_.empty()) return false;
         current_ = std::move(lines_.front());
         lines_.pop_front();
+        rest_.reset();
         try {
             expand(current_);
         } catch (const Error& error) {
@@ -263,6 +264,7 @@ void Script::expandWait(const ScriptLine& line) {
         });
     } else {
         const double seconds = numberIn(line.words[1]);
+        rest_ = seconds;
         add([this, seconds](ScriptHost&) { return sinceStep_.seconds() >= seconds; });
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -42,6 +43,8 @@ public:
     /// Goes on by a step; to be called once a frame before the interface is drawn. False where the script is over.
     /// Throws Error (exit code 1), with file and line, where a check fails or waiting takes too long.
     bool step(ScriptHost& host);
+    /// For how long no step does anything: what is left of `wait SECONDS`, else 0.
+    double restSeconds() const { return rest_ ? std::max(*rest_ - sinceStep_.seconds(), 0.0) : 0.0; }
 
 private:
     /// True where it is done.
@@ -64,6 +67,7 @@ private:
     std::deque<Step> steps_;  ///< of the current line
     Stopwatch sinceStep_;
     bool isFirstFrame_ = true;  ///< of the step at the front
+    std::optional<double> rest_;  ///< that the current line asks for
     double timeout_ = 120.0;
     int frames_ = 0;
 };

@@ -1,16 +1,17 @@
 #include "ui/editor/swapchain.h"
 
+#include <imgui.h>
+
 #include <algorithm>
 #include <array>
 
 #include "engine/core/error.h"
 #include "engine/gpu/check.h"
 #include "engine/gpu/submit.h"
+#include "ui/editor/theme.h"
 
 namespace raylab {
 namespace {
-
-constexpr VkClearValue kBackground{{{0.07f, 0.072f, 0.078f, 1.0f}}};
 
 VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     uint32_t count = 0;
@@ -245,8 +246,10 @@ void Swapchain::record(uint32_t index, const Recorder& recorder, const Buffer* c
     pass.renderPass = renderPass_.get();
     pass.framebuffer = framebuffers_[index].get();
     pass.renderArea.extent = extent_;
+    VkClearValue background{};
+    background.color = {{color::kPane.x, color::kPane.y, color::kPane.z, color::kPane.w}};
     pass.clearValueCount = 1;
-    pass.pClearValues = &kBackground;
+    pass.pClearValues = &background;
     vkCmdBeginRenderPass(commands_, &pass, VK_SUBPASS_CONTENTS_INLINE);
     recorder.draw(commands_);
     vkCmdEndRenderPass(commands_);

@@ -46,7 +46,7 @@ ImVec4 accent(float alpha) { return {color::kAccent.x, color::kAccent.y, color::
 void setColors(ImVec4* colors) {
     colors[ImGuiCol_Text] = color::kText;
     colors[ImGuiCol_TextDisabled] = color::kDim;
-    colors[ImGuiCol_WindowBg] = grey(0.118f);
+    colors[ImGuiCol_WindowBg] = color::kPane;
     colors[ImGuiCol_ChildBg] = grey(0.118f, 0.0f);
     colors[ImGuiCol_PopupBg] = grey(0.145f);
     colors[ImGuiCol_Border] = grey(0.22f);
@@ -97,6 +97,8 @@ void setColors(ImVec4* colors) {
 }  // namespace
 
 namespace color {
+const ImVec4 kPane{0.118f, 0.122f, 0.130f, 1.0f};
+const ImVec4 kView{0.070f, 0.072f, 0.078f, 1.0f};
 const ImVec4 kAccent{0.36f, 0.62f, 0.90f, 1.0f};
 const ImVec4 kText{0.86f, 0.87f, 0.885f, 1.0f};
 const ImVec4 kDim{0.53f, 0.545f, 0.57f, 1.0f};

@@ -10,6 +10,8 @@ void applyTheme(float scale);
 
 /// Colours that panels use by their meaning.
 namespace color {
+extern const ImVec4 kPane;  ///< behind panels: what a frame begins with
+extern const ImVec4 kView;  ///< around the viewport's picture
 extern const ImVec4 kAccent;
 extern const ImVec4 kText;
 extern const ImVec4 kDim;

@@ -17,6 +17,8 @@ using Clock = std::chrono::steady_clock;
 /// A wait that lasted longer than this was ended by its event: nothing had been there when it began.
 constexpr std::chrono::microseconds kImmediate{500};
 
+VkExtent2D extentOf(int width, int height) { return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)}; }
+
 Window& windowOf(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
 std::string glfwMessage() {
@@ -69,15 +71,32 @@ Window::Window(int width, int height, const std::string& selector, bool validati
         glfwTerminate();
         throw;
     }
+    installCallbacks();
+    lookedLast_ = Clock::now();
+}
+
+void Window::installCallbacks() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, onKey);
     glfwSetDropCallback(window_, onDrop);
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { windowOf(w).noteEvent(); });
+    glfwSetMouseButtonCallback(window_, onButton);
+    glfwSetCursorPosCallback(window_, onMove);
+    glfwSetCursorEnterCallback(window_, onEnter);
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { windowOf(w).noteEvent(); });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { windowOf(w).noteEvent(); });
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { windowOf(w).noteEvent(); });
-    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { windowOf(w).noteEvent(); });
-    lookedLast_ = Clock::now();
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int width, int height) {
+        windowOf(w).framebufferSize_ = extentOf(width, height);
+        windowOf(w).noteEvent();
+    });
+    glfwSetWindowSizeCallback(
+        window_, [](GLFWwindow* w, int width, int height) { windowOf(w).size_ = extentOf(width, height); });
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    framebufferSize_ = extentOf(width, height);
+    glfwGetWindowSize(window_, &width, &height);
+    size_ = extentOf(width, height);
+    glfwGetCursorPos(window_, &pointer_.x, &pointer_.y);
+    pointer_.isKnown = glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE;
 }
 
 Window::~Window() {
@@ -148,6 +167,7 @@ void Window::endFrame() {
     events_ = 0;
     input_.presses.clear();
     input_.drops.clear();
+    pointer_.pressed = {};
 }
 
 void Window::onKey(GLFWwindow* window, int key, int /*scancode*/, int action, int mods) {
@@ -158,6 +178,30 @@ void Window::onKey(GLFWwindow* window, int key, int /*scancode*/, int action, in
     if (action == GLFW_PRESS) input.presses.push_back({key, mods});
 }
 
+void Window::onButton(GLFWwindow* window, int button, int action, int /*mods*/) {
+    windowOf(window).noteEvent();
+    Pointer& pointer = windowOf(window).pointer_;
+    const auto index = static_cast<size_t>(button);
+    if (index >= pointer.down.size()) return;
+    pointer.down[index] = action == GLFW_PRESS;
+    pointer.pressed[index] = pointer.pressed[index] || pointer.down[index];
+}
+
+void Window::onMove(GLFWwindow* window, double x, double y) {
+    windowOf(window).noteEvent();
+    Pointer& pointer = windowOf(window).pointer_;
+    pointer.x = x;
+    pointer.y = y;
+    pointer.isKnown = true;
+}
+
+void Window::onEnter(GLFWwindow* window, int entered) {
+    windowOf(window).noteEvent();
+    Pointer& pointer = windowOf(window).pointer_;
+    const bool isHeld = std::ranges::find(pointer.down, true) != pointer.down.end();
+    pointer.isKnown = entered == GLFW_TRUE || isHeld;
+}
+
 void Window::onDrop(GLFWwindow* window, int count, const char** paths) {
     windowOf(window).noteEvent();
     Drop drop;
@@ -165,12 +209,6 @@ void Window::onDrop(GLFWwindow* window, int count, const char** paths) {
     drop.shift =
         glfwGetKey(window, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS || glfwGetKey(window, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
     windowOf(window).input_.drops.push_back(std::move(drop));
-}
-
-VkExtent2D Window::framebufferSize() const {
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
-    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
 }
 
 float Window::scale() const {

@@ -28,7 +28,15 @@ struct Drop {
     bool shift = false;
 };
 
-/// What came from the keyboard and by drops since the last frame; the pointer is ImGui's.
+/// The mouse as the events told, which costs no question to the display's server.
+struct Pointer {
+    double x = 0.0, y = 0.0;       ///< the desktop's units, from the window's upper left
+    bool isKnown = false;          ///< over the window, or held down since it was
+    std::array<bool, 3> down{};    ///< left, right, middle
+    std::array<bool, 3> pressed{}; ///< went down since the last frame, and may be up again
+};
+
+/// What came from the keyboard and by drops since the last frame.
 struct Input {
     std::vector<KeyPress> presses;
     std::array<bool, kKeyCount> down{};
@@ -69,7 +77,10 @@ public:
     void endFrame();
 
     const Input& input() const { return input_; }
-    VkExtent2D framebufferSize() const;
+    const Pointer& pointer() const { return pointer_; }
+    /// In pixels, and in the desktop's units; as the events told.
+    VkExtent2D framebufferSize() const { return framebufferSize_; }
+    VkExtent2D size() const { return size_; }
     /// Pixels of the framebuffer for one of the desktop's units: 1, or 2 on a display of high density.
     float scale() const;
     void setTitle(const std::string& title);
@@ -81,7 +92,11 @@ private:
     void openDevice();
     bool tryDevice(const std::string& selector, std::string& whyNot);
     void closeDevice();
+    void installCallbacks();
     void noteEvent();
+    static void onButton(GLFWwindow* window, int button, int action, int mods);
+    static void onMove(GLFWwindow* window, double x, double y);
+    static void onEnter(GLFWwindow* window, int entered);
     static void onKey(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void onDrop(GLFWwindow* window, int count, const char** paths);
 
@@ -92,6 +107,9 @@ private:
     std::unique_ptr<Device> device_;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     Input input_;
+    Pointer pointer_;
+    VkExtent2D framebufferSize_{};
+    VkExtent2D size_{};
     std::string title_;
     int events_ = 0;
     std::chrono::steady_clock::time_point lookedLast_;  ///< all that happened before it has been seen

@@ -71,8 +71,8 @@ void drawClipboard(EditorContext& context, uint32_t index) {
     ImGui::SameLine();
     if (ImGui::Button("Copy")) ImGui::SetClipboardText(editor::materialText(scene.materials[index], scene).c_str());
     ImGui::SameLine();
-    const char* held = ImGui::GetClipboardText();
     if (ImGui::Button("Paste")) {
+        const char* held = ImGui::GetClipboardText();
         const std::string text = held == nullptr ? "" : held;
         tryEdit(context, [&] { return editor::pasteMaterial(index, text); });
     }

@@ -17,6 +17,7 @@
 #include "ui/editor/model/edit_instances.h"
 #include "ui/editor/panels.h"
 #include "ui/editor/scene_actions.h"
+#include "ui/editor/theme.h"
 #include "ui/editor/view_overlay.h"
 
 namespace raylab {
@@ -49,7 +50,7 @@ ViewRectangle fitPicture(EditorContext& context) {
     const ImVec2 room = {isHalf ? 0.5f * window.x : window.x, window.y};
     const RenderSettings& s = context.state.settings();
     const float aspect = static_cast<float>(s.width) / static_cast<float>(s.height);
-    const float width = std::min(room.x, room.y * aspect), height = width / aspect;
+    const float width = std::round(std::min(room.x, room.y * aspect)), height = std::round(width / aspect);
     return {std::floor(at.x + 0.5f * (room.x - width)), std::floor(at.y + 0.5f * (room.y - height)), width, height};
 }
 
@@ -156,7 +157,23 @@ void takePick(EditorContext& context, ViewportState& v) {
     }
 }
 
+/// All of the window but the rectangle.
+void fillAround(const ViewRectangle& r) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImU32 color = ImGui::GetColorU32(color::kView);
+    const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize(), hi(lo.x + size.x, lo.y + size.y);
+    const auto fill = [&](const ImVec2& from, const ImVec2& to) {
+        if (to.x > from.x && to.y > from.y) list.AddRectFilled(from, to, color);
+    };
+    fill(lo, {hi.x, r.y});
+    fill({lo.x, r.y + r.height}, hi);
+    fill({lo.x, r.y}, {r.x, r.y + r.height});
+    fill({r.x + r.width, r.y}, {hi.x, r.y + r.height});
+}
+
 void showPicture(EditorContext& context, ViewportState& v) {
+    const bool isAlone = context.picture != nullptr && !context.states.get<Comparison>().isOn();
+    fillAround(isAlone ? context.view : ViewRectangle{});
     if (context.picture == nullptr) return;
     if (v.shown != context.picture->number) {
         context.images.setTexels(v.image, context.picture->texels, context.picture->width, context.picture->height);
