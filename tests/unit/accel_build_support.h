@@ -14,6 +14,9 @@
 
 namespace raylab::accel_test {
 
+/// Whether trees of the builder may list a triangle more than once.
+inline bool mayListAgain(std::string_view builder) { return builder == "spatial" || builder == "auto"; }
+
 inline std::vector<Aabb> boundsOf(const TestMesh& mesh) { return triangleBounds(mesh.positions, mesh.triangles); }
 
 inline BuildInput inputOf(const TestMesh& mesh, const std::vector<Aabb>& bounds) {

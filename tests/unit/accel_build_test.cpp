@@ -31,7 +31,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 /// Every builder by its name.
 class AccelBuild : public testing::TestWithParam<std::string> {
 protected:
-    bool duplicates() const { return GetParam() == "spatial"; }
+    bool duplicates() const { return accel_test::mayListAgain(GetParam()); }
 
     Bvh buildAndCheck(const TestMesh& mesh, const BvhConfig& config = {}) const {
         const std::vector<Aabb> bounds = boundsOf(mesh);

@@ -248,7 +248,7 @@ protected:
             BvhConfig config = wanted;
             config.maxLeafSize = std::min(config.maxLeafSize, layout.maxLeafSize);
             const Bvh bvh = buildBvh(GetParam(), accel_test::inputOf(mesh, bounds), config);
-            const bool tight = GetParam() != "spatial";
+            const bool tight = !accel_test::mayListAgain(GetParam());
             accel_test::checkTree(bvh, bounds, config, tight);
             EXPECT_LE(static_cast<double>(bvh.order.size() + bvh.skipped),
                       (1.0 + static_cast<double>(config.spatialBudget)) * static_cast<double>(bounds.size()));
