@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <string>
 
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace raylab {
 
@@ -20,13 +20,6 @@ using Json = nlohmann::json;
 /// Runs raylab in a folder of its own, with folders of its own for configuration and cache.
 class ProgramTest : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "raylab-test-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     /// Returns the exit code; what was printed is in `out` and `err` of the folder.
     int runProgram(const std::string& arguments) const {
         const std::string folder = "'" + folder_.string() + "'";
@@ -49,7 +42,8 @@ protected:
         EXPECT_NE(text("err").find(what), std::string::npos) << text("err");
     }
 
-    std::filesystem::path folder_;
+    const support::ScratchFolder scratch_;
+    const std::filesystem::path folder_ = scratch_.path();
 };
 
 }  // namespace raylab
