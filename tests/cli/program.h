@@ -17,9 +17,16 @@ namespace raylab {
 
 using Json = nlohmann::json;
 
-/// Runs raylab in a folder of its own, with folders of its own for configuration and cache.
+/// Runs raylab in a folder of its own, with folders of its own for configuration and cache but for kernels.
 class ProgramTest : public testing::Test {
 protected:
+    /// Specialised kernels, which their content names, are kept from test to test: they take a second each.
+    ProgramTest() {
+        const std::filesystem::path kernels = support::binaryFolder() / "test-cache/kernels";
+        std::filesystem::create_directories(kernels);
+        std::filesystem::create_directories(folder_ / "raylab");
+        std::filesystem::create_directory_symlink(kernels, folder_ / "raylab/kernels");
+    }
     /// Returns the exit code; what was printed is in `out` and `err` of the folder.
     int runProgram(const std::string& arguments) const {
         const std::string folder = "'" + folder_.string() + "'";
