@@ -177,7 +177,7 @@ struct SunAndSky {
     glm::vec3 skyRadiance{0.0f};  ///< mean over all directions, without the sun
 };
 
-/// Radiance from infinitely far away, as a latitude-longitude map: row 0 is up (+Y), column 0 looks along -Z... see
+/// Radiance from infinitely far away, as a latitude-longitude map: row 0 is up (+Y), column 0 looks along +Z, the middle along -Z... see
 /// shaders/lib/environment.glsl for the one mapping.
 struct Environment {
     Bitmap radiance;  ///< three channels

@@ -15,6 +15,7 @@
 
 #include "engine/image/image_io.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace raylab {
 namespace {
@@ -36,13 +37,6 @@ std::string textOf(const fs::path& path) {
 /// Runs the program the way a user does, in a folder of its own for each test.
 class CommandLine : public testing::Test {
 protected:
-    void SetUp() override {
-        const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::temp_directory_path() / ("raylab-cli-" + std::to_string(::getpid()) + "-" + info->name());
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     pid_t start(const std::vector<std::string>& arguments) {
         const pid_t child = ::fork();
         if (child != 0) return child;
@@ -80,7 +74,8 @@ protected:
         EXPECT_EQ(textOf(folder_ / "old.png"), "the user's own");
     }
 
-    fs::path folder_;
+    const support::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
 };
 
 const std::vector<std::string> kSmall = {"--width", "16", "--height", "16", "--spp", "2", "--quiet"};

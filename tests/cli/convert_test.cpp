@@ -8,7 +8,6 @@ namespace fs = std::filesystem;
 class Convert : public ProgramTest {
 protected:
     void SetUp() override {
-        ProgramTest::SetUp();
         writeText("box.obj", "mtllib box.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         writeText("box.mtl", "newmtl red\nKd 0.7 0.1 0.1\nmap_Kd absent.png\n");
         writeText("ball.gltf",

@@ -108,7 +108,6 @@ const std::string kSmallChart =
 class ChartLoss : public DeviceLoss {
 protected:
     void SetUp() override {
-        DeviceLoss::SetUp();
         ASSERT_EQ(runProgram("render cornell --width 24 --height 24 --depth 2 --spp 16 --quiet -o reference.exr"), 0);
         ASSERT_EQ(runProgram(kSmallChart + "calm"), 0) << text("err");
     }

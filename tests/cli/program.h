@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,21 +11,22 @@
 #include <string>
 
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace raylab {
 
 using Json = nlohmann::json;
 
-/// Runs raylab in a folder of its own, with folders of its own for configuration and cache.
+/// Runs raylab in a folder of its own, with folders of its own for configuration and cache but for kernels.
 class ProgramTest : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "raylab-test-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
+    /// Specialised kernels, which their content names, are kept from test to test: they take a second each.
+    ProgramTest() {
+        const std::filesystem::path kernels = support::binaryFolder() / "test-cache/kernels";
+        std::filesystem::create_directories(kernels);
+        std::filesystem::create_directories(folder_ / "raylab");
+        std::filesystem::create_directory_symlink(kernels, folder_ / "raylab/kernels");
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     /// Returns the exit code; what was printed is in `out` and `err` of the folder.
     int runProgram(const std::string& arguments) const {
         const std::string folder = "'" + folder_.string() + "'";
@@ -49,7 +49,8 @@ protected:
         EXPECT_NE(text("err").find(what), std::string::npos) << text("err");
     }
 
-    std::filesystem::path folder_;
+    const support::ScratchFolder scratch_;
+    const std::filesystem::path folder_ = scratch_.path();
 };
 
 }  // namespace raylab

@@ -11,6 +11,7 @@
 #include "engine/accel/build_binned.h"
 #include "engine/accel/bvh_cache.h"
 #include "engine/accel/triangle_bounds.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/unit/accel_support.h"
 
 namespace raylab {
@@ -21,14 +22,8 @@ using accel_test::TestMesh;
 
 class AccelCache : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "raylab-cache-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    fs::path folder_;
+    const support::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
 };
 
 struct Built {

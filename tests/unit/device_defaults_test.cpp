@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -7,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/render/device_defaults.h"
+#include "tests/support/scratch_folder.h"
 
 namespace raylab {
 namespace {
@@ -19,17 +19,13 @@ const DeviceDescription kNewDriver{.name = "a device", .driver = "1.1"};
 class DeviceDefaults : public testing::Test {
 protected:
     void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "raylab-config-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
         const char* const before = std::getenv("XDG_CONFIG_HOME");
         if (before != nullptr) before_ = before;
-        ::setenv("XDG_CONFIG_HOME", name.c_str(), 1);
+        ::setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1);
     }
     void TearDown() override {
         if (before_) ::setenv("XDG_CONFIG_HOME", before_->c_str(), 1);
         if (!before_) ::unsetenv("XDG_CONFIG_HOME");
-        fs::remove_all(folder_);
     }
     void writeDefaults(const std::string& text) const {
         fs::create_directories(deviceDefaultsFile().parent_path());
@@ -43,7 +39,7 @@ protected:
         EXPECT_NE(testing::internal::GetCapturedStderr().find(deviceDefaultsFile().string()), std::string::npos);
     }
 
-    fs::path folder_;
+    const support::ScratchFolder folder_;
     std::optional<std::string> before_;
 };
 

@@ -9,6 +9,7 @@
 #include "engine/core/file.h"
 #include "engine/gpu/shader_sources.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace raylab {
 namespace {
@@ -19,9 +20,6 @@ namespace fs = std::filesystem;
 class ShaderSourcesTest : public testing::Test {
 protected:
     void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "raylab sources-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        root_ = name;
         fs::create_directories(root_ / "glsl/lib");
         fs::create_directories(root_ / "kernels");
         write("glsl/lib/value.glsl", "float value() { return 1.0; }\n");
@@ -40,8 +38,6 @@ protected:
         }
         write("kernels/commands.txt", commands);
     }
-    void TearDown() override { fs::remove_all(root_); }
-
     static std::string head() {
         return "#version 460\n#extension GL_GOOGLE_include_directive : require\n"
                "layout(set = 0, binding = 0) buffer Out { float result; };\n";
@@ -56,7 +52,8 @@ protected:
     static bool all(const std::string&) { return true; }
     static bool onlyA(const std::string& entry) { return entry == "a.comp"; }
 
-    fs::path root_;
+    const support::ScratchFolder scratch_{"raylab sources"};
+    const fs::path root_ = scratch_.path();
 };
 
 TEST_F(ShaderSourcesTest, CompilesWhatHasChangedAndIsWanted) {

@@ -9,6 +9,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/needs.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace raylab {
 namespace {
@@ -29,19 +30,13 @@ size_t countOps(const std::vector<uint32_t>& code, uint32_t first, uint32_t last
 
 class GpuSpecialise : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "raylab-kernels-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::vector<uint32_t> code(uint32_t needs, const DiskCache& cache) const {
         const std::vector<SpecConstant> constants = {{shared::kSpecNeeds, needs}, {shared::kSpecStackSize, 32}};
         return specialisedCode(kernel_, constants, cache);
     }
 
-    fs::path folder_;
+    const support::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
     const fs::path kernel_ = support::binaryFolder() / "shaders/render_bvh4b.comp.spv";
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -18,29 +17,13 @@
 #include "engine/core/error.h"
 #include "engine/image/bitmap.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 /// Image files built by hand, byte after byte, so that readers are not tested with our own writers alone.
 namespace raylab::imagetest {
 namespace fs = std::filesystem;
 
-/// A folder of one test, removed with all in it.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        path_ = fs::temp_directory_path() / ("raylab_" + std::string(test->test_suite_name()) + "_" + test->name() +
-                                             "_" + std::to_string(::getpid()));
-        fs::create_directories(path_);
-    }
-    ~ScratchFolder() { fs::remove_all(path_); }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    fs::path operator/(const std::string& name) const { return path_ / name; }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
+using support::ScratchFolder;
 
 inline std::string fileBytes(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
@@ -17,33 +16,13 @@
 #include "engine/scene/import.h"
 #include "engine/scene/texture_slots.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 /// Scene files written by hand, and the scenes that others made.
 namespace raylab::importtest {
 namespace fs = std::filesystem;
 
-/// A folder of one test, removed with all in it.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        path_ = fs::temp_directory_path() / ("raylab_" + std::string(test->test_suite_name()) + "_" + test->name() +
-                                             "_" + std::to_string(::getpid()));
-        fs::create_directories(path_);
-    }
-    ~ScratchFolder() { fs::remove_all(path_); }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    fs::path write(const std::string& name, const std::string& contents) const {
-        std::ofstream(path_ / name, std::ios::binary) << contents;
-        return path_ / name;
-    }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
+using support::ScratchFolder;
 
 inline const fs::path kScenes = support::sharedScenes();
 
