@@ -94,15 +94,19 @@ double bytesPerRay(const SubjectLabel& label, const RayCounters& counters) {
 }
 
 std::vector<BenchRow> runRayBench(std::span<const std::unique_ptr<BenchSubject>> subjects, std::span<const RaySet> sets,
-                                  int repeats) {
+                                  int repeats, const std::function<bool()>& stop) {
     std::vector<BenchRow> rows;
     for (const RaySet& set : sets) {
         if (set.rays.empty()) continue;
         std::vector<std::vector<double>> seconds(subjects.size());
         std::vector<size_t> hits(subjects.size());
-        for (size_t i = 0; i < subjects.size(); ++i) hits[i] = subjects[i]->trace(set).hits;  // compiles, fills caches
+        for (size_t i = 0; i < subjects.size(); ++i) {
+            if (stop()) return rows;
+            hits[i] = subjects[i]->trace(set).hits;  // compiles, fills caches
+        }
         for (int round = 0; round < repeats; ++round)
             for (size_t turn = 0; turn < subjects.size(); ++turn) {
+                if (stop()) return rows;
                 const size_t i = (turn + static_cast<size_t>(round)) % subjects.size();
                 seconds[i].push_back(subjects[i]->trace(set).seconds);
             }

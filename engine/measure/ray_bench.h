@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,9 +61,10 @@ struct BenchRow {
 };
 
 /// Times every subject on every set of rays, `repeats` times after one warm-up, the subjects in turn and each round
-/// from another one on, so that a drifting machine favours none.
+/// from another one on, so that a drifting machine favours none. Where `stop` says so, between two timings, only the
+/// sets that are done have rows.
 std::vector<BenchRow> runRayBench(std::span<const std::unique_ptr<BenchSubject>> subjects, std::span<const RaySet> sets,
-                                  int repeats);
+                                  int repeats, const std::function<bool()>& stop);
 
 /// A configuration of raylab on the device.
 std::unique_ptr<BenchSubject> makeDeviceSubject(Device& device, const Scene& scene, const RenderSettings& settings,

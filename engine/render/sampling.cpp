@@ -25,6 +25,12 @@ constexpr int64_t kMostStratified = int64_t{1} << 24;
 
 static_assert(uint32_t{1} << shared::kBlueNoiseRankBits == shared::kBlueNoiseSize * shared::kBlueNoiseSize);
 
+/// Always the same, and 20 ms of work: made once for all films of the process.
+std::span<const uint32_t> blueNoise() {
+    static const std::vector<uint32_t> ranks = makeBlueNoise(shared::kBlueNoiseSize);
+    return ranks;
+}
+
 }  // namespace
 
 std::vector<std::string> samplerNames() { return {kSamplers.begin(), kSamplers.end()}; }
@@ -48,9 +54,9 @@ void writeSampling(const RenderSettings& settings, shared::FrameParams& frame) {
 }
 
 TexelBuffer makeSamplerMask(Device& device, const RenderSettings& settings) {
-    std::vector<uint32_t> ranks;
-    if (settings.sampler == kSamplers[shared::kSamplerBlueNoise]) ranks = makeBlueNoise(shared::kBlueNoiseSize);
-    return makeTexelBuffer(device, "blue noise", std::as_bytes(std::span(ranks)), VK_FORMAT_R32_UINT, 4);
+    std::span<const uint32_t> ranks;
+    if (settings.sampler == kSamplers[shared::kSamplerBlueNoise]) ranks = blueNoise();
+    return makeTexelBuffer(device, "blue noise", std::as_bytes(ranks), VK_FORMAT_R32_UINT, 4);
 }
 
 }  // namespace raylab

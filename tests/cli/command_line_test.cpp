@@ -58,6 +58,13 @@ protected:
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder_ / "stdout"), textOf(folder_ / "stderr")};
     }
 
+    /// Ctrl-C, once `what` is among what the program has printed.
+    void interruptAfter(pid_t child, const char* stream, const char* what) const {
+        for (int tries = 0; tries < 600 && textOf(folder_ / stream).find(what) == std::string::npos; ++tries)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        ::kill(child, SIGINT);
+    }
+
     Outcome run(const std::vector<std::string>& arguments) { return finish(start(arguments)); }
 
     fs::path write(const std::string& name, const std::string& text) {
@@ -211,14 +218,45 @@ TEST_F(CommandLine, SameSeedSameBits) {
 TEST_F(CommandLine, InterruptWritesWhatIsThere) {
     const pid_t child =
         start({"render", "cornell", "-o", "a.png", "--spp", "4000000000", "--width", "64", "--height", "64"});
-    for (int tries = 0; tries < 600 && textOf(folder_ / "stderr").find("samples") == std::string::npos; ++tries)
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ::kill(child, SIGINT);
+    interruptAfter(child, "stderr", "samples");
     const auto sent = std::chrono::steady_clock::now();
     const Outcome outcome = finish(child);
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(5));
     EXPECT_TRUE(fs::exists(folder_ / "a.png"));
+}
+
+/// The second scene takes as long as the first, which is done when the signal comes.
+TEST_F(CommandLine, InterruptedBenchKeepsItsRows) {
+    const pid_t child = start({"bench", "cornell", "cornell", "--rays", "primary", "--no-peers", "--repeats", "200",
+                               "--width", "128", "--height", "128", "--json", "a.json", "--csv", "a.csv"});
+    interruptAfter(child, "stdout", "Mrays/s");
+    const Outcome outcome = finish(child);
+    EXPECT_EQ(outcome.exitCode, 130) << outcome.err;
+    EXPECT_NE(outcome.err.find("interrupted; what was measured before is kept (rows: 1)"), std::string::npos)
+        << outcome.err;
+    const nlohmann::json json = nlohmann::json::parse(textOf(folder_ / "a.json"));
+    EXPECT_EQ(json["complete"], false);
+    ASSERT_EQ(json["rows"].size(), 1u);
+    EXPECT_GT(json["rows"][0]["mraysPerSecond"], 0.0);
+    const std::string csv = textOf(folder_ / "a.csv");
+    EXPECT_NE(csv.find("cornell,primary,software"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("# ended early"), std::string::npos) << csv;
+}
+
+TEST_F(CommandLine, InterruptedAdviceKeepsItsSteps) {
+    const pid_t child = start({"advise", "cornell", "--width", "32", "--height", "32", "--depth", "2", "--target-error",
+                               "0.3", "-o", "p.json", "--json", "a.json"});
+    interruptAfter(child, "stderr", "integrator");  // the second setting: one step is done
+    const Outcome outcome = finish(child);
+    EXPECT_EQ(outcome.exitCode, 130) << outcome.err;
+    const nlohmann::json json = nlohmann::json::parse(textOf(folder_ / "a.json"));
+    EXPECT_EQ(json["complete"], false);
+    ASSERT_GE(json["steps"].size(), 1u);
+    EXPECT_EQ(json["steps"][0]["setting"], "depth");
+    EXPECT_FALSE(json.contains("forecast"));
+    EXPECT_NE(outcome.out.find("What it chose"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder_ / "p.json"));
 }
 
 TEST_F(CommandLine, InfoSaysWhatTheKernelNeeds) {

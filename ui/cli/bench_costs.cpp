@@ -73,7 +73,7 @@ ConfigurationCosts measureCosts(BenchRun& run, const BenchOptions& options, cons
         for (const Camera& view : viewsOf(scene, run.settings)) {
             scene.cameras.push_back(view);
             plan.base.camera = std::to_string(scene.cameras.size() - 1);
-            run.scenes.push_back(benchScene(run.device, name, scene, plan));
+            measureScene(run, name, scene, plan, false);
             addSamples(run.scenes.back(), samples);
         }
     }
@@ -127,7 +127,7 @@ ExitCode benchCosts(const BenchOptions& options) {
             if (options.json != "-") printCosts(all.back());
         }
     });
-    if (!options.csv.empty()) writeCsv(options.csv, run.scenes);
+    if (!options.csv.empty()) writeCsv(options.csv, run);
     nlohmann::ordered_json json = benchJson(run);
     json["costs"] = costsJson(all);
     if (!options.json.empty()) writeJson(options.json, json);

@@ -6,6 +6,7 @@
 
 #include "engine/core/file.h"
 #include "engine/gpu/check.h"
+#include "ui/cli/interrupt.h"
 
 namespace raylab {
 namespace {
@@ -55,27 +56,42 @@ nlohmann::ordered_json rowJson(const BenchRun& run, const std::string& scene, co
     return json;
 }
 
+/// Ctrl-C, on its way from a scene to who keeps the rows.
+struct Interrupted {};
+
+/// Writes what there is, and says how much that is. `loss`: of the device, or empty.
+std::string keepRows(const BenchOptions& options, BenchRun& run, const std::string& loss) {
+    run.isComplete = false;
+    if (!options.csv.empty()) writeCsv(options.csv, run);
+    nlohmann::ordered_json json = benchJson(run);
+    if (!loss.empty()) json["deviceLoss"] = loss;
+    if (!options.json.empty()) writeJson(options.json, json);
+    return "what was measured before is kept (rows: " + std::to_string(json["rows"].size()) + ")";
+}
+
 }  // namespace
 
 void measureKeepingRows(const BenchOptions& options, BenchRun& run, const std::function<void()>& measure) {
+    const InterruptGuard guard;
     try {
         measure();
+    } catch (const Interrupted&) {
+        throw Error("interrupted; " + keepRows(options, run, ""), kInterrupted);
     } catch (const DeviceLost& loss) {
-        if (!options.csv.empty()) writeCsv(options.csv, run.scenes);
-        nlohmann::ordered_json json = benchJson(run);
-        json["deviceLoss"] = loss.what();
-        if (!options.json.empty()) writeJson(options.json, json);
-        throw DeviceLost(std::string(loss.what()) + "; what was measured before is kept (rows: " +
-                         std::to_string(json["rows"].size()) + ")");
+        throw DeviceLost(std::string(loss.what()) + "; " + keepRows(options, run, loss.what()));
     }
+}
+
+void measureScene(BenchRun& run, const std::string& name, const Scene& scene, const BenchPlan& plan, bool print) {
+    run.scenes.push_back(benchScene(run.device, name, scene, plan));
+    if (print) printRows(run, run.scenes.back());
+    if (InterruptGuard::isInterrupted()) throw Interrupted();
 }
 
 void measureScenes(const BenchOptions& options, const BenchPlan& plan, BenchRun& run) {
     measureKeepingRows(options, run, [&] {
-        for (const std::string& name : options.scenes) {
-            run.scenes.push_back(benchScene(run.device, name, loadBenchScene(name, options.materials), plan));
-            if (options.json != "-") printRows(run, run.scenes.back());
-        }
+        for (const std::string& name : options.scenes)
+            measureScene(run, name, loadBenchScene(name, options.materials), plan, options.json != "-");
     });
 }
 
@@ -108,6 +124,7 @@ void printRows(const BenchRun& run, const SceneRows& scene) {
         if (row.counters) printCounters(run, row);
         std::cout << "\n";
     }
+    std::cout << std::flush;
 }
 
 nlohmann::ordered_json benchJson(const BenchRun& run) {
@@ -125,13 +142,14 @@ nlohmann::ordered_json benchJson(const BenchRun& run) {
               {"copyBytesPerSecond", run.memory.copy},
               {"gather64MiBBytesPerSecond", run.memory.gatherLarge},
               {"gather1MiBBytesPerSecond", run.memory.gatherSmall}}},
+            {"complete", run.isComplete},
             {"rows", rows}};
 }
 
-void writeCsv(const std::string& path, const std::vector<SceneRows>& scenes) {
+void writeCsv(const std::string& path, const BenchRun& run) {
     std::ostringstream text;
     text << "scene,rayKind,tracer,layout,triangle,builder,variation,mraysPerSecond,low,high,rays,hits,bytesPerRay\n";
-    for (const SceneRows& scene : scenes)
+    for (const SceneRows& scene : run.scenes)
         for (const BenchRow& row : scene.rows) {
             text << scene.scene << ',' << row.rayKind << ',' << row.label.tracer << ',' << row.label.layout << ','
                  << row.label.triangle << ',' << row.label.builder << ',' << row.label.variation << ','
@@ -140,6 +158,7 @@ void writeCsv(const std::string& path, const std::vector<SceneRows>& scenes) {
             if (row.counters) text << bytesPerRay(row.label, *row.counters);
             text << '\n';
         }
+    if (!run.isComplete) text << "# ended early: rows are missing\n";
     const std::string content = text.str();
     writeFileAtomically(path, std::as_bytes(std::span(content)));
 }

@@ -8,6 +8,7 @@
 #include "engine/render/camera.h"
 #include "engine/render/lighting.h"
 #include "engine/scene/import.h"
+#include "ui/cli/interrupt.h"
 #include "ui/report/variations.h"
 
 namespace raylab {
@@ -74,7 +75,7 @@ SceneRows benchScene(Device& device, const std::string& name, const Scene& scene
         logWarning(name + " holds quadrics, which the peers (Embree, the walk on the CPU) are not given: they are left out");
     else if (plan.peers)
         for (std::unique_ptr<BenchSubject>& peer : makePeerSubjects(scene)) subjects.push_back(std::move(peer));
-    return {name, runRayBench(subjects, sets, plan.repeats)};
+    return {name, runRayBench(subjects, sets, plan.repeats, InterruptGuard::isInterrupted)};
 }
 
 }  // namespace raylab

@@ -58,6 +58,7 @@ struct SceneRows {
 /// and peer answers for the same surfaces.
 Scene loadBenchScene(const std::string& name, bool materials);
 
+/// After Ctrl-C, while there is an InterruptGuard: the rows of those kinds of rays that are done.
 SceneRows benchScene(Device& device, const std::string& name, const Scene& scene, const BenchPlan& plan);
 
 /// The modes of `raylab bench` besides the plain one: in bench_tune.cpp, bench_scaling.cpp and bench_costs.cpp.

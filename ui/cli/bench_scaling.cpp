@@ -44,8 +44,7 @@ std::vector<ScalingPoint> measurePoints(BenchRun& run, const BenchOptions& optio
     measureKeepingRows(options, run, [&] {
         for (size_t wanted = kFewest; wanted <= static_cast<size_t>(options.largest); wanted *= 10) {
             const Scene scene = makeCave(wanted);
-            run.scenes.push_back(benchScene(run.device, scene.name, scene, plan));
-            if (options.json != "-") printRows(run, run.scenes.back());
+            measureScene(run, scene.name, scene, plan, options.json != "-");
             for (const BenchRow& row : run.scenes.back().rows) points.push_back({triangleCount(scene).stored, row});
         }
     });

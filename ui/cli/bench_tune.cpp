@@ -80,7 +80,7 @@ ExitCode benchTune(const BenchOptions& options) {
     if (best == ranking.end() || !(best->mraysPerSecond > 0.0))
         throw Error("no ray could be traced, so no layout is best; choose a camera that sees the scene");
     recordLayout(device.description(), best->layout);
-    if (!options.csv.empty()) writeCsv(options.csv, run.scenes);
+    if (!options.csv.empty()) writeCsv(options.csv, run);
     nlohmann::ordered_json json = benchJson(run);
     json["tune"] = tuneJson(ranking, best->layout);
     if (!options.json.empty()) writeJson(options.json, json);

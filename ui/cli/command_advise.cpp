@@ -31,8 +31,8 @@ AdviceGoal goalOf(const RenderSettings& settings) {
     return {settings.targetError, settings.timeLimit, {}};
 }
 
-/// After a loss it goes on from the last step on another device, as long as each of them brings a step; without, the
-/// report says so.
+/// After a loss it goes on from the last step on another device, as long as each of them brings a step; without, and
+/// after Ctrl-C, the report is not complete.
 AdviceReport makeReport(ReplaceableDevice& device, const Scene& scene, const RenderSettings& base,
                         const AdviseOptions& options) {
     AdviceGoal goal = goalOf(base);
@@ -49,8 +49,8 @@ AdviceReport makeReport(ReplaceableDevice& device, const Scene& scene, const Ren
     for (std::optional<size_t> before;; device.replace()) {
         const std::vector<AdviceStep>& steps = report.advice.steps;
         try {
-            if (!runAdvice(device.get(), options.scene, scene, base, goal, options.referenceError, watch, report))
-                throw Error("interrupted; nothing was written");
+            runAdvice(device.get(), options.scene, scene, base, goal, options.referenceError, watch, report);
+            progress.finish();
             return report;
         } catch (const DeviceLost& loss) {
             progress.finish();
@@ -65,6 +65,13 @@ AdviceReport makeReport(ReplaceableDevice& device, const Scene& scene, const Ren
     }
 }
 
+Error endedEarly(const AdviceReport& report) {
+    const std::string kept = "; the steps before (" + std::to_string(report.advice.steps.size()) +
+                             ") are kept, but nothing was forecast, so there is no preset";
+    if (report.deviceLoss.empty()) return Error("interrupted" + kept, kInterrupted);
+    return Error(report.deviceLoss + kept + ": --only searches without what lost the device", ExitCode::noDevice);
+}
+
 ExitCode adviseScene(const AdviseOptions& options) {
     setQuiet(options.quiet);
     const RenderSettings base = options.settings.resolve();
@@ -77,16 +84,10 @@ ExitCode adviseScene(const AdviseOptions& options) {
     for (const std::string& warning : scene.warnings) logWarning(warning);
     const InterruptGuard guard;
     const AdviceReport report = makeReport(device, scene, base, options);
-    const bool isComplete = report.deviceLoss.empty();
-    if (isComplete && !options.preset.empty()) writeJson(options.preset, presetJson(report));
+    if (report.isComplete && !options.preset.empty()) writeJson(options.preset, presetJson(report));
     if (!options.json.empty()) writeJson(options.json, adviceJson(report));
     if (options.json != "-") printAdvice(report);
-    if (!isComplete) {
-        logError(report.deviceLoss +
-                 "; the steps before are kept, but nothing was forecast, so there is no preset: "
-                 "--only searches without what lost the device");
-        return ExitCode::noDevice;
-    }
+    if (!report.isComplete) throw endedEarly(report);
     return device.validationMessageCount() > 0 ? ExitCode::checkFailed : ExitCode::done;
 }
 

@@ -39,7 +39,7 @@ ExitCode benchScenes(const BenchOptions& options) {
         json["compare"] = comparisonJson(options.compare, comparison);
         if (print) printComparison(options.compare, comparison);
     }
-    if (!options.csv.empty()) writeCsv(options.csv, run.scenes);
+    if (!options.csv.empty()) writeCsv(options.csv, run);
     if (!options.json.empty()) writeJson(options.json, json);
     return slower > 0 ? ExitCode::checkFailed : ExitCode::done;
 }

@@ -277,7 +277,7 @@ void timeKinds(const CompareTracersOptions& options, const Scene& scene, HitSour
             run.leftOut.push_back(std::string(set.kind.name) + " rays are not timed");
             continue;
         }
-        const std::vector<BenchRow> rows = runRayBench(subjects, std::span(&set, 1), options.repeats);
+        const std::vector<BenchRow> rows = runRayBench(subjects, std::span(&set, 1), options.repeats, [] { return false; });
         if (!rows.empty()) run.times->push_back({rows[0], rows[1]});
         if (!options.quiet) logInfo("timed " + std::string(set.kind.name) + " rays");
     }

@@ -9,7 +9,11 @@ volatile std::sig_atomic_t interrupted = 0;
 
 InterruptGuard::InterruptGuard() {
     interrupted = 0;
-    for (size_t i = 0; i < kSignals.size(); ++i) old_[i] = std::signal(kSignals[i], [](int) { interrupted = 1; });
+    const auto onSignal = [](int signal) {
+        interrupted = 1;
+        std::signal(signal, SIG_DFL);
+    };
+    for (size_t i = 0; i < kSignals.size(); ++i) old_[i] = std::signal(kSignals[i], onSignal);
 }
 
 InterruptGuard::~InterruptGuard() {

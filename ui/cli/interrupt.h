@@ -3,9 +3,15 @@
 #include <array>
 #include <csignal>
 
+#include "engine/core/error.h"
+
 namespace raylab {
 
-/// Turns Ctrl-C (SIGINT, SIGTERM) into a flag while it lives, so that what is done so far can be written.
+/// Of a command that Ctrl-C ended before all was there that was asked for; as a shell says of programs without a guard.
+constexpr ExitCode kInterrupted{130};
+
+/// Turns Ctrl-C (SIGINT, SIGTERM) into a flag while it lives, so that what is done so far can be written. A second one
+/// ends the program at once.
 class InterruptGuard {
 public:
     InterruptGuard();

@@ -202,6 +202,7 @@ private:
         const bool shown = swapchain_->present(window_.framebufferSize(), recorder, screenshot_.empty() ? nullptr : &copy);
         images_.endFrame();
         if (!shown) return;
+        latency_.countFrame();
         if (window_.hasNewEvents())
             latency_.record({secondsBetween(window_.oldestEvent(), frameStart_), secondsBetween(frameStart_, built),
                              secondsBetween(built, Clock::now())});

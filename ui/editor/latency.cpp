@@ -45,7 +45,7 @@ double LatencyRecorder::quantile(double quantile) const {
 }
 
 void LatencyRecorder::write(const std::filesystem::path& path) const {
-    nlohmann::ordered_json json{{"schema", "raylab.latency/1"}, {"frames", times_.size()}};
+    nlohmann::ordered_json json{{"schema", "raylab.latency/1"}, {"frames", times_.size()}, {"drawn", drawn_}};
     json["milliseconds"] = quantilesOf(secondsOf(times_, &FrameTimes::total));
     json["parts"]["waiting"] = quantilesOf(secondsOf(times_, &FrameTimes::waiting));
     json["parts"]["building"] = quantilesOf(secondsOf(times_, &FrameTimes::building));

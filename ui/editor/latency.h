@@ -19,15 +19,19 @@ struct FrameTimes {
 class LatencyRecorder {
 public:
     void record(const FrameTimes& times) { times_.push_back(times); }
-    void clear() { times_.clear(); }
+    /// A frame was shown, with or without an event.
+    void countFrame() { ++drawn_; }
+    void clear() { *this = {}; }
     /// The smallest time that the part `quantile` of all times does not exceed; 0 without any.
     double quantile(double quantile) const;
-    /// {"schema": "raylab.latency/1", "frames": , "milliseconds": {"p50": , "p99": , "worst": }, "parts": {"waiting": {the
-    /// same}, "building": , "drawing": }}. Throws Error where it cannot be written.
+    /// {"schema": "raylab.latency/1", "frames": that answered an event, "drawn": all, "milliseconds": {"p50": , "p99":
+    /// , "worst": }, "parts": {"waiting": {the same}, "building": , "drawing": }}. Throws Error where it cannot be
+    /// written.
     void write(const std::filesystem::path& path) const;
 
 private:
     std::vector<FrameTimes> times_;
+    size_t drawn_ = 0;
 };
 
 }  // namespace raylab

@@ -43,6 +43,7 @@ bool runAdvice(Device& device, const std::string& sceneName, const Scene& scene,
     if (!lights) return false;
     report.lights = std::move(*lights);
     report.textures = texturesBelowPixels(scene, report.base);
+    report.isComplete = true;
     return true;
 }
 

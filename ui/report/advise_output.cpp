@@ -121,8 +121,9 @@ nlohmann::ordered_json adviceJson(const AdviceReport& report) {
         {"reference", {{"from", report.reference.origin}, {"relativeError", report.reference.relativeError}}},
         {"settings", settingsJson(report.advice.settings)},
         {"deviceLoss", report.deviceLoss},
+        {"complete", report.isComplete},
         {"steps", steps}};
-    if (!report.deviceLoss.empty()) return json;
+    if (!report.isComplete) return json;
     json["forecast"] = forecastJson(report.advice.forecast);
     json["default"] = forecastJson(report.advice.standard);
     json["achieved"] = {{"deviceSeconds", report.advice.achieved.seconds},
@@ -148,7 +149,7 @@ void printAdvice(const AdviceReport& report) {
     const Advice& advice = report.advice;
     std::cout << "What it chose, each by its gain: time to the same error before, over that after\n";
     for (const AdviceStep& step : advice.steps) printStep(step);
-    if (!report.deviceLoss.empty()) return;
+    if (!report.isComplete) return;
     printUnneeded(report);
     std::cout << "Forecast\n";
     std::cout << "  advised: " << forecastText(advice.forecast) << "\n  default: " << forecastText(advice.standard) << "\n"

@@ -20,6 +20,7 @@ struct AdviceReport {
     Advice advice;
     std::vector<LightShare> lights;
     std::vector<FineTexture> textures;
+    bool isComplete = false;  ///< the search came to its end: there is a forecast
     std::string deviceLoss;  ///< what the driver said when it ended the search; empty: the search came through
 };
 
@@ -34,7 +35,7 @@ std::string gainText(const Interval& gain);
 /// Samples, time and error; or why there is none.
 std::string forecastText(const Forecast& forecast);
 
-/// In sentences, to standard output; after a loss of the device, the steps alone.
+/// In sentences, to standard output; of a search that did not come to its end, the steps alone.
 void printAdvice(const AdviceReport& report);
 
 }  // namespace raylab
