@@ -63,6 +63,28 @@ TEST_F(IdenticalHits, SoupWithDuplicates) {
     expectIdentical(device_, scene, randomRays(scene, 300'000, 143), everyBuilderAndLayout());
 }
 
+/// In a room, 150,000 triangles of 5e-4 across: some of them each ray sees edge-on, far beside it, where its rounding is as large
+/// as they are. No tree asks for them; brute force does.
+TEST_F(IdenticalHits, SmallTrianglesFarBesideTheRays) {
+    TestMesh mesh;
+    Random random(147);
+    for (int i = 0; i < 150'000; ++i) {
+        const glm::vec3 p = random.inCube(-15.0f, 15.0f);
+        mesh.add(p, p + 5e-4f * random.direction(), p + 5e-4f * random.direction());
+    }
+    const auto wall = [&](const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+        mesh.add(corner, corner + u, corner + u + v);
+        mesh.add(corner, corner + u + v, corner + v);
+    };
+    const glm::vec3 x(40.0f, 0.0f, 0.0f), y(0.0f, 40.0f, 0.0f), z(0.0f, 0.0f, 40.0f), low(-20.0f);
+    wall(low, x, y), wall(low + z, x, y), wall(low, y, z), wall(low + x, y, z), wall(low, x, z), wall(low + y, x, z);
+    Scene scene = sceneOf(mesh);
+    addInstance(scene, 0, glm::mat4(1.0f));
+    RenderSettings brute;
+    brute.tracer = "brute";
+    expectIdentical(device_, scene, randomRays(scene, 800, 148), {RenderSettings{}, brute});
+}
+
 /// Every layout by the default builder, and every other builder by the default layout.
 std::vector<RenderSettings> layoutsAndBuilders() {
     std::vector<RenderSettings> choices = everyLayout();
