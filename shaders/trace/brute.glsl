@@ -4,6 +4,7 @@
 
 #include "trace/two_level.glsl"
 
+const float kBoxPadding = 4e-6;  // 33 units in the last place, as in trees
 const bool kAsksBoxes = kTriangleTest == kTriangleWatertight && kSlab != kSlabPlain;
 
 // Whether the ray meets the box of the triangle at `slot`, as a tree would ask before its test. Of a small triangle far beside the
@@ -16,10 +17,15 @@ bool meetsTriangleBox(SlabRay ray, uint slot, float tMin, float tMax) {
     vec3 a = uintBitsToFloat(first.xyz);
     vec3 b = uintBitsToFloat(texelFetch(traceTriangleWords, at + 1).xyz);
     vec3 c = uintBitsToFloat(texelFetch(traceTriangleWords, at + 2).xyz);
-    vec3 low = (min(min(a, b), c) - ray.origin) * ray.reciprocal;
-    vec3 high = (max(max(a, b), c) - ray.origin) * ray.reciprocal;
-    ivec2 interval = slabInterval(low, high, floatBitsToInt(tMin), floatBitsToInt(tMax));
-    return interval.x - kTreeSlabUlps <= interval.y;
+    vec3 lo = min(min(a, b), c), hi = max(max(a, b), c);
+    // Closed to rays that run in its faces, too: they have an interval of no length, or of the sign that rounding left.
+    vec3 pad = kBoxPadding * max(max(abs(lo), abs(hi)), abs(ray.origin));
+    vec3 low = (lo - pad - ray.origin) * ray.reciprocal;
+    vec3 high = (hi + pad - ray.origin) * ray.reciprocal;
+    vec3 enter = min(low, high), leave = max(low, high);
+    float near = max(max(enter.x, enter.y), max(enter.z, tMin));
+    float far = min(min(leave.x, leave.y), min(leave.z, tMax));
+    return near <= far * (1.0 + kBoxPadding);
 }
 
 bool findHit(Ray ray, bool anyHit, out Candidate hit) {
