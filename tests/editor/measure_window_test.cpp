@@ -65,7 +65,7 @@ TEST_F(MeasureWindowTest, AChartThatIsStoppedOrWrongLeavesTheEditorAsItWas) {
         "wait-samples 1\npanel Chart\nwait 0.2\npress chart-add-vary\npress chart-vary-text\n"
         "type depht=1,2\nkey Enter\nwait-until errors == 1\nassert chart-queued == 0\nkey Esc\n"
         "press chart-add-current\nwait-until chart-queued == 1\npress chart-measure\nwait-until chart-running == 1\n"
-        "assert phase != rendering\npress chart-stop\nwait-until chart-running == 0\nwait-idle\n"
+        "wait-until phase != rendering\npress chart-stop\nwait-until chart-running == 0\nwait-idle\n"
         "assert errors == 1\nassert depth == 3\nquit\n";
     EXPECT_EQ(runScript(kSmall, script), 0) << readFile("log");
     EXPECT_NE(readFile("log").find("depht"), std::string::npos);
@@ -82,7 +82,7 @@ TEST_F(MeasureWindowTest, TheTargetDialStopsTheRendering) {
 TEST_F(MeasureWindowTest, AdviceThatIsStoppedLeavesTheEditorAsItWas) {
     const std::string script =
         "wait-samples 1\npanel Advice\nwait 0.2\npress advice-run\nwait-until advice-running == 1\n"
-        "assert phase != rendering\npress advice-stop\nwait-until advice-running == 0\nwait-idle\n"
+        "wait-until phase != rendering\npress advice-stop\nwait-until advice-running == 0\nwait-idle\n"
         "assert advice-steps == 0\nassert undo-steps == 0\nassert errors == 0\nquit\n";
     EXPECT_EQ(runScript(kSmall, script), 0) << readFile("log");
 }

@@ -51,7 +51,9 @@ uint32_t countBelow(const Bvh& bvh, const std::vector<NodeFacts>& facts, uint32_
 TEST(InspectNodes, CountWhatIsBelowAndAddUpToTheTree) {
     const TreeInspection trees = inspectTrees(soupScene(3000), {});
     const Bvh& bvh = trees.bvh(0);
-    EXPECT_EQ(countBelow(bvh, trees.facts[0], 0, 0), 3000u);
+    // Triangles of a soup overlap, so that the default builder lists some of them in two leaves.
+    EXPECT_GT(bvh.order.size(), 3000u);
+    EXPECT_EQ(countBelow(bvh, trees.facts[0], 0, 0), bvh.order.size());
     double sum = 0.0;
     for (const NodeFacts& fact : trees.facts[0]) sum += fact.sahShare;
     EXPECT_NEAR(sum, 1.0, 1e-12);
