@@ -35,7 +35,7 @@ uint32_t addWater(Scene& scene, const Painting& painting) {
     return addMaterial(scene, material);
 }
 
-Material lanternLight() {
+Material lanternGlow() {
     Material material = plainMaterial("lantern light", glm::vec3(0.8f), 1.0f);
     material.emission = {11.0f, 5.6f, 2.0f};
     return material;
@@ -79,7 +79,7 @@ Palette addPalette(Scene& scene) {
     p.iron = addMaterial(scene, plainMaterial("iron", {0.10f, 0.095f, 0.09f}, 0.55f, 1.0f));
     p.clearGlass = addMaterial(scene, glassMaterial("clear glass", {0.99f, 1.0f, 0.995f}));
     p.tintedGlass = addMaterial(scene, glassMaterial("blue glass", {0.50f, 0.76f, 0.94f}));
-    p.lanternLight = addMaterial(scene, lanternLight());
+    p.lanternLight = addMaterial(scene, lanternGlow());
     return p;
 }
 

@@ -13,7 +13,6 @@ using Real = long double;
 /// Roundings of a point's coordinate: a row of a matrix for origin and direction 5 each, the distance to the closest
 /// approach 4 (two sums of three products, a quotient), the way there 2.
 constexpr double kPointRoundings = 16.0;
-constexpr double kTransformRoundings = 5.0;  ///< see hit_oracle_surface.cpp
 /// Of the equation: coefficients of three products each 4, discriminant 2, root, sum and quotient 2.
 constexpr double kEquationRoundings = 8.0;
 

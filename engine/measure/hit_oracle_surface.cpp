@@ -14,8 +14,6 @@ namespace {
 /// place), the product 1 and the difference that it multiplies 1; the last difference 2; the products of the edge
 /// function 2.
 constexpr double kCoordinateRoundings = 12.0;
-/// Of a coordinate that a 3x4 matrix of rounded entries makes: 1 an entry, 1 a product, 3 sums.
-constexpr double kTransformRoundings = 5.0;
 /// Barycentrics are quotients of edge functions: two products and a difference in each, two sums of the three; thrice
 /// as much for the shear, which makes lengths across the ray up to sqrt(3) times as large.
 constexpr double kWeightRoundings = 15.0;

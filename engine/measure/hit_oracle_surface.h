@@ -14,6 +14,8 @@ namespace raylab::oracle {
 
 /// Relative error of one rounding to float.
 constexpr double kRounding = 0x1p-24;
+/// Roundings of a coordinate that a 3x4 matrix of rounded entries makes: 1 an entry, 1 a product, 3 sums.
+constexpr double kTransformRoundings = 5.0;
 
 /// A ray in world space, and the plane across it that primitives are projected to.
 struct WorldRay {

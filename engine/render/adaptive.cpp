@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/core/luminance.h"
+
 namespace raylab {
 namespace {
 
@@ -19,11 +21,6 @@ struct BlockGrid {
     std::vector<double> variance;
     std::vector<double> pixels;
 };
-
-double luminance(const float* rgb) {
-    return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
-           0.0722 * static_cast<double>(rgb[2]);
-}
 
 /// Relative variance of a pixel's sample; the deviations of the channels are taken to go together, as developFilm()
 /// does.

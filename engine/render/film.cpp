@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "engine/core/luminance.h"
 #include "shaders/shared/bindings.h"
 
 namespace raylab {
@@ -20,8 +21,6 @@ uint32_t chooseRowsPerBand(const Device& device, uint32_t width, uint32_t height
     // Bands start at multiples of the alignment that dynamic offsets need: eight rows of 64-byte pixels are 512 bytes.
     return static_cast<uint32_t>(std::min<size_t>(rows, whole));
 }
-
-double luminance(const double* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
 }  // namespace
 

@@ -1,19 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/accel/light_tree.h"
+#include "engine/core/luminance.h"
 #include "engine/render/gpu_data.h"
 
 namespace raylab {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kGridLast = 65535;
 /// Added to the angle of a cone: what rounding its axis to 2 x 16 bits can turn it by.
 constexpr double kAxisRounding = 1e-4;
-
-double luminance(glm::vec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 LightBound boundOf(const shared::EmissiveData& triangle, double emitted, bool isTwoSided) {
     LightBound bound;
@@ -23,7 +22,7 @@ LightBound boundOf(const shared::EmissiveData& triangle, double emitted, bool is
     const double twiceArea = glm::length(normal);
     bound.isTwoSided = isTwoSided;
     if (!(twiceArea > 0.0)) return bound;  // lost by rounding to floats
-    bound.cone = {normal * (static_cast<double>(triangle.frontSign) / twiceArea), 0.0, 0.5 * kPi};
+    bound.cone = {normal * (static_cast<double>(triangle.frontSign) / twiceArea), 0.0, 0.5 * std::numbers::pi};
     bound.power = emitted * 0.5 * twiceArea;
     return bound;
 }
@@ -31,7 +30,7 @@ LightBound boundOf(const shared::EmissiveData& triangle, double emitted, bool is
 LightBound boundOfShape(const shared::PunctualData& light) {
     LightBound bound;
     bound.cone.axis = glm::dvec3(light.direction);
-    bound.cone.thetaE = 0.5 * kPi;
+    bound.cone.thetaE = 0.5 * std::numbers::pi;
     if (light.kind == shared::kPunctualRectangle) {
         for (const glm::vec3 corner : {glm::vec3(0.0f), light.direction, light.shape, light.direction + light.shape})
             bound.box.grow(light.position + corner);
@@ -45,8 +44,8 @@ LightBound boundOfShape(const shared::PunctualData& light) {
     const glm::vec3 n = isSphere ? glm::vec3(0.0f) : light.direction;
     const glm::vec3 reach = radius * glm::sqrt(glm::max(1.0f - n * n, glm::vec3(0.0f)));
     bound.box = {light.position - reach, light.position + reach};
-    if (isSphere) bound.cone.thetaO = kPi;
-    bound.power = luminance(light.intensity) * kPi * static_cast<double>(radius) * static_cast<double>(radius);
+    if (isSphere) bound.cone.thetaO = std::numbers::pi;
+    bound.power = luminance(light.intensity) * std::numbers::pi * static_cast<double>(radius) * static_cast<double>(radius);
     return bound;
 }
 
@@ -57,7 +56,7 @@ LightBound boundOf(const shared::PunctualData& light) {
     bound.box.grow(light.position);
     bound.power = luminance(light.intensity);
     bound.cone.axis = glm::dvec3(light.direction);
-    bound.cone.thetaO = kPi;
+    bound.cone.thetaO = std::numbers::pi;
     if (light.kind == shared::kPunctualSpot)
         bound.cone.thetaO = std::acos(std::clamp(-static_cast<double>(light.shape.y / light.shape.x), -1.0, 1.0));
     return bound;
@@ -101,7 +100,7 @@ shared::LightNodeData packNode(const LightNode& node, const LightGrid& grid) {
     data.hiYZ = grid.above(b.box.hi.y, 1) | grid.above(b.box.hi.z, 2) << 16;
     data.axis = encodeNormal(glm::vec3(b.cone.axis));
     data.power = static_cast<float>(b.power);
-    const double thetaO = std::min(b.cone.thetaO + kAxisRounding, kPi);
+    const double thetaO = std::min(b.cone.thetaO + kAxisRounding, std::numbers::pi);
     data.cosines = snormBelow(std::cos(thetaO)) | snormBelow(std::cos(b.cone.thetaE)) << 16;
     data.reference = node.reference;
     data.flags = (node.isLeaf ? shared::kLightNodeLeaf : 0u) | (b.isTwoSided ? shared::kLightNodeTwoSided : 0u);

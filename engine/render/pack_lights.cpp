@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
+#include "engine/core/luminance.h"
 #include "engine/image/srgb.h"
 #include "engine/render/gpu_data.h"
 #include "engine/scene/instance_motion.h"
@@ -10,14 +12,11 @@
 namespace raylab {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Part of the light samples that goes to the kinds of light evenly, whatever their estimated power: it bounds the
 /// variance where the estimate is wrong for a part of the scene.
 constexpr double kEvenShare = 0.2;
 /// From so many lights on a tree is worth its walk.
 constexpr size_t kManyLights = 32;
-
-double luminance(glm::vec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 /// The mean of an emission texture over the whole of it (its smallest level), 1 without one.
 glm::vec3 meanEmission(const Material& material, const MaterialTables& tables) {
@@ -72,7 +71,7 @@ void appendEmissive(const Scene& scene, uint32_t instanceIndex, float weight, fl
         data.frontSign = mirrored ? -1.0f : 1.0f;
         lights.emissive.push_back(data);
         sum.weights.push_back(area * static_cast<double>(weight));
-        sum.flux += area * static_cast<double>(emitted) * kPi * (scene.materials[mesh.material].doubleSided ? 2.0 : 1.0);
+        sum.flux += area * static_cast<double>(emitted) * std::numbers::pi * (scene.materials[mesh.material].doubleSided ? 2.0 : 1.0);
     }
 }
 
@@ -101,14 +100,14 @@ double punctualFlux(const Light& light, double sceneRadius) {
     switch (light.kind) {
         case LightKind::point:
         case LightKind::sphere:
-            return 4.0 * kPi * intensity;
+            return 4.0 * std::numbers::pi * intensity;
         case LightKind::spot:
-            return 2.0 * kPi * (1.0 - std::cos(light.outerConeRadians)) * intensity;
+            return 2.0 * std::numbers::pi * (1.0 - std::cos(light.outerConeRadians)) * intensity;
         case LightKind::disc:
         case LightKind::rectangle:
-            return kPi * intensity;
+            return std::numbers::pi * intensity;
         case LightKind::directional:
-            return kPi * sceneRadius * sceneRadius * intensity;
+            return std::numbers::pi * sceneRadius * sceneRadius * intensity;
     }
     return 0.0;
 }
@@ -196,10 +195,10 @@ void packEnvironment(const Scene& scene, LightTables& lights) {
     }
     std::vector<double> weights(map.pixelCount());
     for (int y = 0; y < map.height; ++y) {
-        const double sine = std::sin(kPi * (y + 0.5) / map.height);
+        const double sine = std::sin(std::numbers::pi * (y + 0.5) / map.height);
         for (int x = 0; x < map.width; ++x) {
             const float* p = map.at(x, y);
-            weights[static_cast<size_t>(y) * map.width + x] = sine * luminance({p[0], p[1], p[2]});
+            weights[static_cast<size_t>(y) * map.width + x] = sine * luminance(p);
         }
     }
     const double mean = std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
@@ -223,7 +222,7 @@ void adoptEnvironment(const LightTables& known, LightTables& lights) {
 }
 
 double environmentFlux(const LightTables& lights, double sceneRadius) {
-    return kPi * sceneRadius * sceneRadius * lights.environmentMean * 2.0 * kPi * kPi;
+    return std::numbers::pi * sceneRadius * sceneRadius * lights.environmentMean * 2.0 * std::numbers::pi * std::numbers::pi;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ glm::vec3 absorption(const Material& m) {
     return std::isfinite(m.attenuationDistance) ? -glm::log(left) / m.attenuationDistance : glm::vec3(0.0f);
 }
 
-shared::LobeData packMaterial(const Material& m) {
+shared::LobeData packLobe(const Material& m) {
     shared::LobeData data{};
     data.specularColor = m.specularColor;
     data.clearcoat = m.clearcoat;
@@ -55,7 +55,7 @@ std::vector<shared::LobeTextureData> packLobeTextures(const Scene& scene) {
 
 std::vector<shared::LobeData> packLobes(const Scene& scene) {
     std::vector<shared::LobeData> packed;
-    for (const Material& material : scene.materials) packed.push_back(packMaterial(material));
+    for (const Material& material : scene.materials) packed.push_back(packLobe(material));
     return packed;
 }
 

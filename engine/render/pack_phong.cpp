@@ -11,7 +11,7 @@ glm::vec3 unit(glm::vec3 color) { return glm::clamp(color, glm::vec3(0.0f), glm:
 
 /// Within the bounds that PhongMaterial promises, for the kernel's stack relies on them: what a surface mirrors and
 /// lets through is no more than what arrives.
-shared::PhongData packMaterial(const PhongMaterial& phong) {
+shared::PhongData packPhongMaterial(const PhongMaterial& phong) {
     shared::PhongData data{};
     data.diffuse = unit(phong.diffuse);
     data.exponent = std::clamp(phong.exponent, 1.0f, shared::kLargestExponent);
@@ -29,7 +29,7 @@ shared::PhongData packMaterial(const PhongMaterial& phong) {
 std::vector<shared::PhongData> packPhong(const Scene& scene) {
     std::vector<shared::PhongData> packed;
     for (const Material& material : scene.materials)
-        packed.push_back(material.phong ? packMaterial(*material.phong) : shared::PhongData{});
+        packed.push_back(material.phong ? packPhongMaterial(*material.phong) : shared::PhongData{});
     return packed;
 }
 

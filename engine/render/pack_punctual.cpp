@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/render/gpu_data.h"
 
 namespace raylab {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 shared::PunctualData placed(const Light& light, uint32_t kind) {
     shared::PunctualData data{};
@@ -30,7 +29,7 @@ shared::PunctualData packDirectional(const Light& light) {
     shared::PunctualData data = placed(light, shared::kPunctualSunDisc);
     const float halfSine = std::sin(0.5f * light.angularRadiusRadians), sine = std::sin(light.angularRadiusRadians);
     data.shape.x = 2.0f * halfSine * halfSine;
-    data.intensity /= kPi * sine * sine;
+    data.intensity /= std::numbers::pi_v<float> * sine * sine;
     return data;
 }
 
@@ -38,7 +37,7 @@ shared::PunctualData packDirectional(const Light& light) {
 shared::PunctualData packRound(const Light& light, uint32_t kind) {
     shared::PunctualData data = placed(light, kind);
     data.shape.x = light.radius;
-    data.intensity /= kPi * light.radius * light.radius;
+    data.intensity /= std::numbers::pi_v<float> * light.radius * light.radius;
     return data;
 }
 

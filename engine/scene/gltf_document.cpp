@@ -11,7 +11,6 @@ namespace raylab {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 constexpr uint32_t kMagic = 0x46546C67;  // "glTF"
 constexpr uint32_t kChunkJson = 0x4E4F534A;
@@ -61,13 +60,13 @@ Container splitContainer(std::span<const std::byte> file, const fs::path& path) 
     return {.json = file, .binary = {}};
 }
 
-json parseJson(std::span<const std::byte> text, const fs::path& path) {
+nlohmann::json parseJson(std::span<const std::byte> text, const fs::path& path) {
     const char* first = reinterpret_cast<const char*>(text.data());
     try {
-        json document = json::parse(first, first + text.size());
+        nlohmann::json document = nlohmann::json::parse(first, first + text.size());
         if (!document.is_object()) throw Error(path.string() + ": is JSON, but not a glTF document");
         return document;
-    } catch (const json::exception& problem) {
+    } catch (const nlohmann::json::exception& problem) {
         std::string message = problem.what();
         if (message.size() > 160) message = message.substr(0, 160) + "...";
         throw Error(path.string() + ": not valid JSON: " + message + "; copy or export the file again");

@@ -9,7 +9,6 @@
 namespace raylab {
 namespace {
 
-using nlohmann::json;
 
 /// Primitive modes of glTF (section 5.24.4) from which triangles come.
 constexpr size_t kTriangles = 4;
@@ -29,8 +28,8 @@ public:
     PlainBuilder(const GltfDocument& document, LeftOut& leftOut) : document_(document), leftOut_(leftOut) {
         plain_["asset"]["version"] = "2.0";
         plain_["scene"] = 0;
-        plain_["accessors"] = plain_["bufferViews"] = plain_["nodes"] = plain_["meshes"] = json::array();
-        plain_["scenes"] = json::array({{{"nodes", json::array()}}});
+        plain_["accessors"] = plain_["bufferViews"] = plain_["nodes"] = plain_["meshes"] = nlohmann::json::array();
+        plain_["scenes"] = nlohmann::json::array({{{"nodes", nlohmann::json::array()}}});
     }
 
     /// False where the primitive yields no triangles.
@@ -40,7 +39,7 @@ public:
     void finish(PlainGltf& result);
 
 private:
-    json attributesOf(const JsonView& primitive, size_t vertexCount);
+    nlohmann::json attributesOf(const JsonView& primitive, size_t vertexCount);
     /// The accessor of an attribute that matches the positions; others are counted.
     std::optional<size_t> matching(const JsonView& primitive, const std::string& name, size_t components,
                                    size_t vertexCount);
@@ -52,7 +51,7 @@ private:
 
     const GltfDocument& document_;
     LeftOut& leftOut_;
-    json plain_;
+    nlohmann::json plain_;
     std::vector<std::byte> unrolled_;
     std::unordered_map<size_t, size_t> floatAccessors_;
 };
@@ -77,8 +76,8 @@ size_t PlainBuilder::unroll(const void* data, size_t byteCount, size_t count, Co
 
 size_t PlainBuilder::passThrough(size_t accessor, const Accessor& info) {
     const JsonView source = document_.root().array("accessors").element(accessor);
-    const json& view = document_.json["bufferViews"][source.count("bufferView", 0)];
-    json copy = {{"buffer", view["buffer"]}, {"byteLength", view["byteLength"]}};
+    const nlohmann::json& view = document_.json["bufferViews"][source.count("bufferView", 0)];
+    nlohmann::json copy = {{"buffer", view["buffer"]}, {"byteLength", view["byteLength"]}};
     for (const char* key : {"byteOffset", "byteStride"})
         if (view.contains(key)) copy[key] = view[key];
     plain_["bufferViews"].push_back(std::move(copy));
@@ -137,9 +136,9 @@ std::optional<size_t> PlainBuilder::uvsOf(const JsonView& primitive, size_t uvSe
     return matching(primitive, "TEXCOORD_" + std::to_string(uvSet), 2, accessorAt(document_, position).count);
 }
 
-json PlainBuilder::attributesOf(const JsonView& primitive, size_t vertexCount) {
+nlohmann::json PlainBuilder::attributesOf(const JsonView& primitive, size_t vertexCount) {
     const size_t accessorCount = document_.root().array("accessors").size();
-    json plain = {{"POSITION", floatAccessor(*primitive.object("attributes").index("POSITION", accessorCount))}};
+    nlohmann::json plain = {{"POSITION", floatAccessor(*primitive.object("attributes").index("POSITION", accessorCount))}};
     if (const auto normal = matching(primitive, "NORMAL", 3, vertexCount)) plain["NORMAL"] = floatAccessor(*normal);
     if (const auto tangent = matching(primitive, "TANGENT", 4, vertexCount)) plain["TANGENT"] = floatAccessor(*tangent);
     return plain;
@@ -156,7 +155,7 @@ bool PlainBuilder::add(const JsonView& primitive) {
     if (mode < kTriangles) leftOut_.pointsAndLines += cornerCount / (mode == 1 ? 2 : 1);
     if (mode < kTriangles || cornerCount < 3 || vertexCount == 0) return false;
 
-    json plain = {{"mode", mode}, {"attributes", attributesOf(primitive, vertexCount)}};
+    nlohmann::json plain = {{"mode", mode}, {"attributes", attributesOf(primitive, vertexCount)}};
     if (indices) {
         const std::optional<size_t> copied = indicesOf(*indices, mode, vertexCount);
         if (!copied) return false;
@@ -165,14 +164,14 @@ bool PlainBuilder::add(const JsonView& primitive) {
     leftOut_.coloured += primitive.object("attributes").has("COLOR_0");
     leftOut_.morphed += primitive.array("targets").size() > 0;
     const size_t part = plain_["meshes"].size();
-    plain_["meshes"].push_back({{"name", std::to_string(part)}, {"primitives", json::array({plain})}});
+    plain_["meshes"].push_back({{"name", std::to_string(part)}, {"primitives", nlohmann::json::array({plain})}});
     plain_["nodes"].push_back({{"mesh", part}});
     plain_["scenes"][0]["nodes"].push_back(part);
     return true;
 }
 
 void PlainBuilder::finish(PlainGltf& result) {
-    json& buffers = plain_["buffers"] = json::array();
+    nlohmann::json& buffers = plain_["buffers"] = nlohmann::json::array();
     for (size_t b = 0; b < document_.buffers.size(); ++b)
         buffers.push_back({{"uri", "buffer" + std::to_string(b)}, {"byteLength", document_.buffers[b].size()}});
     if (!unrolled_.empty()) buffers.push_back({{"uri", "unrolled"}, {"byteLength", unrolled_.size()}});

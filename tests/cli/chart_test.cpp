@@ -14,9 +14,9 @@ using Preset = ProgramTest;
 using Advise = ProgramTest;
 
 /// Seconds: a picture that is nearly nothing.
-const std::string kSmall = "cornell --width 24 --height 24 --depth 2";
+const std::string kSmallCornell = "cornell --width 24 --height 24 --depth 2";
 const std::string kChart =
-    "chart " + kSmall + " -o c --vary sampler=sobol,independent --seeds 2 --reference-error 0.3 --quiet";
+    "chart " + kSmallCornell + " -o c --vary sampler=sobol,independent --seeds 2 --reference-error 0.3 --quiet";
 
 std::vector<std::string> linesOf(const std::string& text) {
     std::vector<std::string> lines;
@@ -66,7 +66,7 @@ TEST_F(Chart, RefusesWhatDoesNotBelongToTheFolder) {
     ASSERT_EQ(runProgram(kChart + " --points 1"), 0) << text("err");
     expectProgramRefuses(kChart + " --points 1 --clamp 2", "with clamp 0.0 instead of 2.0");
     expectProgramRefuses(kChart + " --points 1 --seed 9", "firstSeed 0 instead of 9");
-    expectProgramRefuses("chart " + kSmall + " -o c --seeds 2 --reference-error 0.3",
+    expectProgramRefuses("chart " + kSmallCornell + " -o c --seeds 2 --reference-error 0.3",
                          "'sampler=independent', which is not asked for");
     expectProgramRefuses("chart mirrors --width 24 --height 24 -o c", "has a chart of scene");
     std::filesystem::remove(folder_ / "c/chart.json");
@@ -74,11 +74,11 @@ TEST_F(Chart, RefusesWhatDoesNotBelongToTheFolder) {
 }
 
 TEST_F(Chart, ReferenceAndConfigurationsMayBeFiles) {
-    ASSERT_EQ(runProgram("render " + kSmall + " --spp 8 -o reference.exr --quiet"), 0) << text("err");
+    ASSERT_EQ(runProgram("render " + kSmallCornell + " --spp 8 -o reference.exr --quiet"), 0) << text("err");
     writeText(
         "configs.json",
         R"([{"name": "short, of course", "settings": {"depth": 1}}, {"settings": {"clamp": 2.5, "sampler": "independent"}}])");
-    ASSERT_EQ(runProgram("chart " + kSmall +
+    ASSERT_EQ(runProgram("chart " + kSmallCornell +
                          " -o c --configs configs.json --reference reference.exr --seeds 2 --points 1 --quiet"),
               0)
         << text("err");
@@ -99,7 +99,7 @@ TEST_F(Chart, ReferenceAndConfigurationsMayBeFiles) {
 }
 
 TEST_F(Chart, ComparesWhatRoundingsCost) {
-    ASSERT_EQ(runProgram("chart " + kSmall + " -o c --set-of precision --seeds 2 --points 1 --reference-error 0.3 --quiet"),
+    ASSERT_EQ(runProgram("chart " + kSmallCornell + " -o c --set-of precision --seeds 2 --points 1 --reference-error 0.3 --quiet"),
               0)
         << text("err");
     const Json curves = json("c/chart.json")["curves"];

@@ -7,16 +7,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kSmall = " --width 24 --height 16 --repeats 2 --quiet";
+const std::string kFewPixels = " --width 24 --height 16 --repeats 2 --quiet";
 const std::string kFew = " --spp 2 --rays 3000";
 
 class CompareTracersCommand : public ProgramTest {
 protected:
     int run(const std::string& arguments, const std::string& much = kFew) const {
-        return runProgram("compare-tracers " + arguments + kSmall + much);
+        return runProgram("compare-tracers " + arguments + kFewPixels + much);
     }
     void expectRefused(const std::string& arguments, const std::string& what) const {
-        expectProgramRefuses("compare-tracers " + arguments + kSmall + kFew, what);
+        expectProgramRefuses("compare-tracers " + arguments + kFewPixels + kFew, what);
     }
 };
 

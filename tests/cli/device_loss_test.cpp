@@ -7,7 +7,7 @@
 namespace raylab {
 namespace {
 
-const std::string kSmall = "render cornell --width 32 --height 32 --integrator ao --spp 8 --quiet ";
+const std::string kSmallRender = "render cornell --width 32 --height 32 --integrator ao --spp 8 --quiet ";
 
 /// Failures that raylab simulates as long as this lives.
 class Simulated {
@@ -24,9 +24,9 @@ protected:
     /// Renders by a tracer while `failures` happen, and compares with the picture that the software tracer makes when
     /// nothing happens.
     void expectSamePicture(const std::string& tracer, const std::string& failures, int losses) const {
-        ASSERT_EQ(runProgram(kSmall + "-o calm.exr"), 0) << text("err");
+        ASSERT_EQ(runProgram(kSmallRender + "-o calm.exr"), 0) << text("err");
         const Simulated simulated(failures);
-        ASSERT_EQ(runProgram(kSmall + "--validation -o lost.exr --json lost.json --tracer " + tracer), 0)
+        ASSERT_EQ(runProgram(kSmallRender + "--validation -o lost.exr --json lost.json --tracer " + tracer), 0)
             << text("err");
         EXPECT_EQ(image("lost.exr").pixels, image("calm.exr").pixels);
         EXPECT_EQ(json("lost.json")["deviceLosses"], losses);
@@ -62,7 +62,7 @@ TEST_F(DeviceLoss, TwiceInARowComesThroughFromAHardwareTracer) {
 
 TEST_F(DeviceLoss, ForGoodEndsWithAMessageAndNoPicture) {
     const Simulated simulated("device-lost@render:3,device-lost@render:3");
-    EXPECT_EQ(runProgram(kSmall + "-o lost.png"), 3);
+    EXPECT_EQ(runProgram(kSmallRender + "-o lost.png"), 3);
     EXPECT_NE(text("err").find("VK_ERROR_DEVICE_LOST"), std::string::npos) << text("err");
     EXPECT_NE(text("err").find("--slice-ms"), std::string::npos) << text("err");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "lost.png"));
@@ -190,7 +190,7 @@ TEST_F(DeviceLoss, KeepsTheRowsOfABenchmark) {
 
 TEST_F(DeviceLoss, IsSimulatedByAClearTextOnly) {
     const Simulated simulated("device-lost@render");
-    expectProgramRefuses(kSmall + "-o lost.png", "device-lost@LABEL:N");
+    expectProgramRefuses(kSmallRender + "-o lost.png", "device-lost@LABEL:N");
 }
 
 /// A build that runs out of memory, and whatever else is no loss, keeps the device.

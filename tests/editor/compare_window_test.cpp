@@ -16,10 +16,10 @@ protected:
     }
 };
 
-const std::string kSmall = "cornell --depth 2 --spp 2 ";
+const std::string kCornellToCompare = "cornell --depth 2 --spp 2 ";
 
 TEST_F(CompareWindowTest, ComparesEqualConfigurationsAndFindsNoDifference) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToCompare,
                         "wait-idle\ncompare absolute\nwait-idle\nwait-until samples-b == 2\n"
                         "wait-until difference == 0\ncompare \"first hit\"\nwait-until difference == 0\n"
                         "set-b tracer query\nwait-until tracing-b == query\nwait-idle\nwait-until difference < 0.001\n"
@@ -30,7 +30,7 @@ TEST_F(CompareWindowTest, ComparesEqualConfigurationsAndFindsNoDifference) {
 
 TEST_F(CompareWindowTest, ComparesTwoIntegratorsInAllModes) {
     EXPECT_EQ(
-        runScript(kSmall,
+        runScript(kCornellToCompare,
                   "wait-idle\nkey v\nassert compare == wipe\nset-b integrator normal\nwait-idle\n"
                   "panel A/B\nwait 0.2\nscreenshot wipe.png\ndrag v0.5 v0.5 v0.25 v0.5\nwait-until wipe < 0.3\n"
                   "assert wipe > 0.2\ncompare checker\nwait 0.1\ncompare blink\nwait 0.8\ncompare \"side by side\"\n"
@@ -64,7 +64,7 @@ TEST_F(CompareWindowTest, MeasuresErrorAndTimeOfBothSides) {
 
 /// What B is told before it is shown holds; all else is A's.
 TEST_F(CompareWindowTest, BIsSetBeforeItIsShown) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToCompare,
                         "wait-idle\nset-b integrator normal\nassert integrator == path\nkey v\n"
                         "compare relative\nwait-until samples-b == 2\nwait-until difference > 0.1\n"
                         "key Alt+v\nassert integrator == normal\nassert depth == 2\nassert spp == 2\n"
@@ -76,7 +76,7 @@ TEST_F(CompareWindowTest, BIsSetBeforeItIsShown) {
 TEST_F(CompareWindowTest, SwapsAndTakesBsSettingsAsOneStep) {
     EXPECT_EQ(
         runScript(
-            kSmall,
+            kCornellToCompare,
             "wait-idle\ncompare checker\nset-b depth 7\nkey Shift+v\nassert depth == 7\nassert undo contains Swap\n"
             "wait-idle\nset-b depth 9\nkey Alt+v\nassert depth == 9\nkey Ctrl+z\nassert depth == 7\n"
             "set-b integrator nonsense\nquit\n"),
@@ -87,7 +87,7 @@ TEST_F(CompareWindowTest, SwapsAndTakesBsSettingsAsOneStep) {
 
 TEST_F(CompareWindowTest, ASideThatCannotBePreparedSaysSo) {
     EXPECT_EQ(
-        runScript(kSmall,
+        runScript(kCornellToCompare,
                   "wait-idle\ncompare wipe\nset-b environment nowhere.hdr\nwait-until error-of-b contains nowhere.hdr\n"
                   "wait-idle\nassert samples == 2\nset-b environment none\nwait-until error-of-b == \"\"\nwait-until "
                   "samples-b == 2\nquit\n"),

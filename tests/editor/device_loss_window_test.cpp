@@ -6,11 +6,11 @@ namespace {
 
 using support::WindowTest;
 
-const std::string kSmall = "cornell --depth 3 --spp 2 ";
+const std::string kCornellToLose = "cornell --depth 3 --spp 2 ";
 
 TEST_F(WindowTest, GoesOnByTheSoftwareTracerAfterALossOfTheDevice) {
     EXPECT_EQ(
-        runScript(kSmall + "--tracer query",
+        runScript(kCornellToLose + "--tracer query",
                   "wait-idle\nassert tracing == query\nset exposure 1\nset depth 2\n"
                   "simulate device-lost@render:2\nset depth 4\nwait-until recovery contains software\nwait-idle\n"
                   "assert tracing == software\nassert tracer == query\nassert depth == 4\nassert exposure == 1\n"
@@ -24,7 +24,7 @@ TEST_F(WindowTest, GoesOnByTheSoftwareTracerAfterALossOfTheDevice) {
 }
 
 TEST_F(WindowTest, TriesOnceMoreBySoftwareAndThenWaitsForTheUser) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToLose,
                         "wait-idle\nsimulate device-lost@render:3,device-lost@render:3\nset depth 4\n"
                         "wait-until error contains F5\nassert errors == 1\nkey F5\nwait-idle\nassert error == \"\"\n"
                         "assert samples == 2\nassert depth == 4\nassert validation == 0\nquit\n"),
@@ -34,7 +34,7 @@ TEST_F(WindowTest, TriesOnceMoreBySoftwareAndThenWaitsForTheUser) {
 
 /// The picture, its thumbnails and the interface come back on another device.
 TEST_F(WindowTest, DrawsOnAFreshDeviceAfterALossOfItsOwn) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToLose,
                         "wait-idle\nset exposure 1\nwait-idle\nwait 0.5\nscreenshot before.png\n"
                         "simulate device-lost@frame:1\nwait 1\nwait-idle\nscreenshot after.png\nassert exposure == 1\n"
                         "assert undo-steps == 1\nkey Ctrl+z\nassert exposure == 0\nwait-idle\nassert validation == 0\n"

@@ -6,12 +6,12 @@ namespace {
 
 using support::WindowTest;
 
-const std::string kSmall = "cornell --depth 2 --spp 1 ";
+const std::string kCornellToEdit = "cornell --depth 2 --spp 1 ";
 const std::string kSelectTheTallBox = "wait-samples 1\nclick v0.62 v0.55\nwait-until selected == 1\n";
 
 TEST_F(WindowTest, DuplicatesDragsAndUndoesWithNames) {
     EXPECT_EQ(
-        runScript(kSmall,
+        runScript(kCornellToEdit,
                   kSelectTheTallBox +
                       "key Ctrl+d\nwait-until instances == 9\nassert undo contains Duplicate\nassert unsaved == 1\n"
                       "key f\nwait-idle\nremember item-x\nscreenshot gizmo.png\n"
@@ -27,7 +27,7 @@ TEST_F(WindowTest, DuplicatesDragsAndUndoesWithNames) {
 /// An edit of a material uploads the table of materials (and the first metal 17 KB of albedos), and nothing is prepared anew;
 /// undone, the picture is what it was.
 TEST_F(WindowTest, TakesUpAnEditOfAMaterialInPlace) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToEdit,
                         kSelectTheTallBox +
                             "wait-idle\nassert updated-bytes == 0\nremember picture-contrast\npress material-metallic\n"
                             "wait-until undo contains metallic\nwait-until updated-bytes > 0\nwait-idle\n"
@@ -40,7 +40,7 @@ TEST_F(WindowTest, TakesUpAnEditOfAMaterialInPlace) {
 }
 
 TEST_F(WindowTest, HidesIsolatesAndDeletes) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToEdit,
                         kSelectTheTallBox +
                             "key h\nwait-until rendered == 7\nassert instances == 8\nkey h\nwait-until rendered == 8\n"
                             "key Shift+h\nwait-until rendered == 1\nwait-idle\nkey Alt+h\nwait-until rendered == 8\n"
@@ -56,7 +56,7 @@ TEST_F(WindowTest, SavesUnderAnotherNameAndBesideIt) {
     const std::string file = (folder_ / "saved.glb").string();
     EXPECT_EQ(
         runScript(
-            kSmall,
+            kCornellToEdit,
             kSelectTheTallBox +
                 "key Ctrl+d\nwait-until instances == 9\nset depth 5\nkey Ctrl+Shift+s\nwait 0.3\nscreenshot "
                 "names.png\ntype " +
@@ -74,11 +74,11 @@ TEST_F(WindowTest, AsksBeforeEditsAreLostAndRecoversThemAfterACrash) {
     writeFile("raylab/editor.json", "{\"autosaveSeconds\": 1}");
     const std::string crash = "while [ ! -e edited.png ]; do sleep .1; done\nsleep 2.5\nkill -9 $editor\n";
     EXPECT_NE(
-        runScript(kSmall,
+        runScript(kCornellToEdit,
                   kSelectTheTallBox + "key Ctrl+d\nwait-until instances == 9\nscreenshot edited.png\nwait 20\nquit\n",
                   crash),
         0);
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToEdit,
                         "wait-samples 1\nwait 0.3\nscreenshot recovery.png\nclick 488 365\nwait-until instances == "
                         "9\nassert unsaved == 1\n"
                         "assert file == cornell.glb\nwait-idle\nkey Ctrl+q\nwait 0.3\nscreenshot question.png\nclick "

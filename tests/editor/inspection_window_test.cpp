@@ -8,7 +8,7 @@ namespace {
 
 using support::WindowTest;
 
-const std::string kSmall = "cornell --depth 2 --spp 1 ";
+const std::string kCornellToInspect = "cornell --depth 2 --spp 1 ";
 
 /// What `print NAME` left in the log.
 double printed(const std::string& log, const std::string& name) {
@@ -18,7 +18,7 @@ double printed(const std::string& log, const std::string& name) {
 
 /// Boxes come with the key; a click selects a leaf, which F frames, and one beside everything selects nothing.
 TEST_F(WindowTest, ShowsBoxesAndSelectsALeafByClick) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToInspect,
                         "wait-samples 1\npanel BVH\nkey b\nwait-until bvh-boxes > 10\nassert bvh-selected == -1\n"
                         "wait-until bvh-epo >= 0\nassert bvh-sah > 1\nremember camera-z\nscreenshot boxes.png\n"
                         "click v0.62 v0.55\nwait-until bvh-selected-leaf == 1\nassert selected == 0\n"
@@ -32,7 +32,7 @@ TEST_F(WindowTest, ShowsBoxesAndSelectsALeafByClick) {
 
 /// The table has a row for each node, and so has the file.
 TEST_F(WindowTest, ListsNodesAndExportsThem) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToInspect,
                         "wait-samples 1\npanel Nodes\nwait-until bvh-nodes > 1\nprint bvh-nodes\nwait 0.3\n"
                         "click 280 635\nwait-until bvh-selected >= 0\nscreenshot nodes.png\n"
                         "click 607 590\nwait 0.2\nwait-until job == \"\"\nassert errors == 0\nquit\n"),
@@ -47,7 +47,7 @@ TEST_F(WindowTest, ListsNodesAndExportsThem) {
 TEST_F(WindowTest, StepsAlongARayAndExportsIt) {
     EXPECT_EQ(
         runScript(
-            kSmall,
+            kCornellToInspect,
             "wait-samples 1\nkey Right\nassert ray-bounces == 0\nkey r\nwait-until bvh-sah > 1\nwait 0.2\n"
             "click v0.62 v0.55\nwait-until ray-bounces == 1\nassert ray-hit == 1\nassert ray-steps > 2\n"
             "assert ray-step == 0\nkey Left\nassert ray-step == 0\nkey Right\nkey Right\nassert ray-step == 2\n"
@@ -65,7 +65,7 @@ TEST_F(WindowTest, StepsAlongARayAndExportsIt) {
 
 /// The same through two levels of trees: instances above meshes.
 TEST_F(WindowTest, ShowsTheTreesOfMeshesBelowInstances) {
-    EXPECT_EQ(runScript(kSmall + "--trees mesh ",
+    EXPECT_EQ(runScript(kCornellToInspect + "--trees mesh ",
                         "wait-samples 1\npanel BVH\nkey b\nwait-until bvh-boxes > 10\nassert bvh-sah > 1\n"
                         "wait-until bvh-epo >= 0\nwait 0.2\nscreenshot mesh-boxes.png\n"
                         "click v0.62 v0.55\nwait-until bvh-selected-leaf == 1\nremember camera-z\nkey f\n"
@@ -79,7 +79,7 @@ TEST_F(WindowTest, ShowsTheTreesOfMeshesBelowInstances) {
 
 /// Counts follow the view.
 TEST_F(WindowTest, CountsWhatRaysCost) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToInspect,
                         "wait-samples 1\npanel Counts\nkey c\nwait-until counts-rays > 1000\nassert counts-mean > 1\n"
                         "assert counts-high > 1\nassert counts-most < 100\n"
                         "wait 0.3\nscreenshot counts.png\nremember counts-mean\nhold w 0.4\n"
@@ -90,7 +90,7 @@ TEST_F(WindowTest, CountsWhatRaysCost) {
 
 /// Another builder makes another tree, to which the overlay switches.
 TEST_F(WindowTest, ComparesTwoBuilds) {
-    EXPECT_EQ(runScript(kSmall,
+    EXPECT_EQ(runScript(kCornellToInspect,
                         "wait-samples 1\npanel BVH\nwait-until bvh-sah > 1\nremember bvh-sah\n"
                         "click 100 239\nwait 0.2\nclick 100 289\nwait 0.2\nclick 20 314\nwait-until bvh-b-sah > 1\n"
                         "assert bvh-sah == remembered\nremember bvh-b-sah\n"

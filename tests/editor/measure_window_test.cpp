@@ -16,7 +16,7 @@ protected:
     }
 };
 
-const std::string kSmall = "cornell --depth 3 --spp 2 ";
+const std::string kCornellToMeasure = "cornell --depth 3 --spp 2 ";
 
 /// A chart of two depths, small enough for a test: 2 x 2 seeds x 2 levels.
 const std::string kQueueDepths =
@@ -40,7 +40,7 @@ TEST_F(MeasureWindowTest, ChartsDepthsAdoptsAPointAndExports) {
                                "press chart-export\npress chart-export-write\nwait-idle\n"
                                "assert errors == 0\nassert validation == 0\nquit\n";
     const std::string user = onPlace("point", "while [ ! -e hover.png ]; do sleep .05; done\nxdotool click 1\n");
-    EXPECT_EQ(runScript(kSmall, script, user), 0) << readFile("log");
+    EXPECT_EQ(runScript(kCornellToMeasure, script, user), 0) << readFile("log");
     const std::filesystem::path folder = folder_ / "chart-cornell";
     for (const char* name :
          {"chart.json", "chart.svg", "report.html", "chart.gnuplot", "pictures/00-1.png", "pictures/01-2-error.png"})
@@ -67,7 +67,7 @@ TEST_F(MeasureWindowTest, AChartThatIsStoppedOrWrongLeavesTheEditorAsItWas) {
         "press chart-add-current\nwait-until chart-queued == 1\npress chart-measure\nwait-until chart-running == 1\n"
         "wait-until phase != rendering\npress chart-stop\nwait-until chart-running == 0\nwait-idle\n"
         "assert errors == 1\nassert depth == 3\nquit\n";
-    EXPECT_EQ(runScript(kSmall, script), 0) << readFile("log");
+    EXPECT_EQ(runScript(kCornellToMeasure, script), 0) << readFile("log");
     EXPECT_NE(readFile("log").find("depht"), std::string::npos);
 }
 
@@ -84,7 +84,7 @@ TEST_F(MeasureWindowTest, AdviceThatIsStoppedLeavesTheEditorAsItWas) {
         "wait-samples 1\npanel Advice\nwait 0.2\npress advice-run\nwait-until advice-running == 1\n"
         "wait-until phase != rendering\npress advice-stop\nwait-until advice-running == 0\nwait-idle\n"
         "assert advice-steps == 0\nassert undo-steps == 0\nassert errors == 0\nquit\n";
-    EXPECT_EQ(runScript(kSmall, script), 0) << readFile("log");
+    EXPECT_EQ(runScript(kCornellToMeasure, script), 0) << readFile("log");
 }
 
 /// Real clicks run the leaks of S1; a test for triangles that leaks has a row, whose scene opens with its wrong rays
@@ -100,7 +100,7 @@ TEST_F(MeasureWindowTest, RunsACaseAndShowsWhereItFails) {
         "evidence-pixels == 0\n"
         "set triangle watertight\nwait-idle\nassert errors == 0\nassert validation == 0\nquit\n";
     const std::string click = "xdotool click 1";
-    EXPECT_EQ(runScript(kSmall, script,
+    EXPECT_EQ(runScript(kCornellToMeasure, script,
                         onPlace("configs", click) + onPlace("set", click) + onPlace("run", click) +
                             onPlace("row", click) + onPlace("show", click)),
               0)
@@ -113,7 +113,7 @@ TEST_F(MeasureWindowTest, ACaseThatPassesHasNothingToShow) {
         "wait-samples 1\npanel Stability\nwait 0.2\npress stability-case-S2\npress stability-run\n"
         "wait-until stability-running == 1\nwait-until stability-running == 0\nassert stability-rows == 3\n"
         "press stability-row-0\nwait 0.2\nassert stability-evidence == 0\nassert errors == 0\nquit\n";
-    EXPECT_EQ(runScript(kSmall, script), 0) << readFile("log");
+    EXPECT_EQ(runScript(kCornellToMeasure, script), 0) << readFile("log");
 }
 
 }  // namespace

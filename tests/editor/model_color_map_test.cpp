@@ -8,7 +8,7 @@ namespace raylab::editor {
 namespace {
 
 /// Relative luminance of IEC 61966-2-1.
-double luminance(const glm::vec3& color) {
+double relativeLuminance(const glm::vec3& color) {
     const auto linear = [](float v) {
         const auto x = static_cast<double>(v);
         return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
@@ -19,12 +19,12 @@ double luminance(const glm::vec3& color) {
 TEST(ColorMap, MoreIsBrighterInAllButTheDivergingOne) {
     for (const ColorMap map : {ColorMap::heat, ColorMap::sequential, ColorMap::grey})
         for (int i = 0; i < 64; ++i)
-            EXPECT_LT(luminance(mapColor(map, i / 64.0)), luminance(mapColor(map, (i + 1) / 64.0)))
+            EXPECT_LT(relativeLuminance(mapColor(map, i / 64.0)), relativeLuminance(mapColor(map, (i + 1) / 64.0)))
                 << static_cast<int>(map) << " at " << i;
 }
 
 TEST(ColorMap, TheDivergingOneIsBrightestInTheMiddle) {
-    const auto at = [](double v) { return luminance(mapColor(ColorMap::diverging, v)); };
+    const auto at = [](double v) { return relativeLuminance(mapColor(ColorMap::diverging, v)); };
     for (int i = 0; i < 32; ++i) {
         EXPECT_LT(at(i / 64.0), at((i + 1) / 64.0));
         EXPECT_LT(at(1.0 - i / 64.0), at(1.0 - (i + 1) / 64.0));

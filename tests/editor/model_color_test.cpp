@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/luminance.h"
 #include "ui/editor/model/color_temperature.h"
 
 namespace raylab::editor {

@@ -10,13 +10,13 @@ namespace {
 
 using Lights = GpuTest;
 
-constexpr float kAlbedo = 0.6f;
+constexpr float kFloorAlbedo = 0.6f;
 constexpr double kRadiancePerIrradiance = 0.6 / kPi;
 
 /// A Lambertian plane at y = 0.
 Scene planeScene() {
     Scene scene;
-    addMesh(scene, floorQuad(addMaterial(scene, lambert(kAlbedo)), 3.0f));
+    addMesh(scene, floorQuad(addMaterial(scene, lambert(kFloorAlbedo)), 3.0f));
     return scene;
 }
 

@@ -61,7 +61,7 @@ void expectSameMean(Device& device, Scene scene, const Material& textured, const
     EXPECT_EQ(film.nonFinitePixels, 0u);
 }
 
-Material cloth() {
+Material coatedVelvet() {
     Material m = lambert({0.5f, 0.4f, 0.3f});
     m.specular = 1.0f;
     m.roughness = 0.7f;
@@ -73,7 +73,7 @@ Material cloth() {
 }
 
 TEST_F(LobeTexture, CoatAndSheenAreScaledByTheirChannels) {
-    Material plain = cloth(), textured = plain;
+    Material plain = coatedVelvet(), textured = plain;
     Scene scene = roomOf(plain);
     textured.lobeTextures.clearcoat = addTexel(scene, {150, 20, 30, 40});
     textured.lobeTextures.clearcoatRoughness = addTexel(scene, {10, 190, 30, 40});

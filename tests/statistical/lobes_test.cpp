@@ -86,15 +86,15 @@ glm::dvec3 inclined(double mu, double azimuth = 0.0) {
     return {r * std::cos(azimuth), r * std::sin(azimuth), mu};
 }
 
-double schlick(double cosTheta) { return 0.04 + 0.96 * std::pow(1.0 - cosTheta, 5); }
+double coatFresnel(double cosTheta) { return 0.04 + 0.96 * std::pow(1.0 - cosTheta, 5); }
 
 TEST_F(Lobes, ClearcoatReflectsItsDirectionalAlbedo) {
     for (const double mu : {1.0, 0.3}) {
         Material m = lambert(0.0f);
         m.clearcoat = 0.8f;
-        expectExact(furnace(device_, m, mu), 0.8 * schlick(mu), "smooth");
+        expectExact(furnace(device_, m, mu), 0.8 * coatFresnel(mu), "smooth");
         m.clearcoatRoughness = 0.6f;
-        expectExact(furnace(device_, m, mu), 0.8 * reflected({0.36, 0.36}, inclined(mu), schlick), "rough");
+        expectExact(furnace(device_, m, mu), 0.8 * reflected({0.36, 0.36}, inclined(mu), coatFresnel), "rough");
     }
 }
 

@@ -8,15 +8,10 @@
 #include "shaders/shared/frame.h"
 #include "shaders/shared/needs.h"
 #include "tests/support/paths.h"
+#include "tests/support/routine_bindings.h"
 #include "tests/support/scene_build.h"
 
 namespace raylab::support {
-namespace {
-
-constexpr BindingInfo kFrame{shared::kBindFrame, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
-constexpr BindingInfo kResult{shared::kBindHits, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-
-}  // namespace
 
 Scene floorOf(const Material& material) {
     Scene scene;
@@ -28,8 +23,8 @@ Scene floorOf(const Material& material) {
 
 BsdfKernel::BsdfKernel(Device& device) : device_(device) {
     std::vector<BindingInfo> bindings = GpuScene::bindings();
-    bindings.push_back(kFrame);
-    bindings.push_back(kResult);
+    bindings.push_back(kRoutineFrame);
+    bindings.push_back(kRoutineResult);
     layout_ = KernelLayout(device, bindings, sizeof(shared::BsdfPush));
     const SpecConstant constants[] = {{shared::kSpecNeeds, shared::kNeedAll}};
     kernel_ = makeComputeKernel(device, layout_, binaryFolder() / "tests/bsdf.comp.spv", constants);
@@ -45,8 +40,8 @@ std::vector<glm::vec4> BsdfKernel::draw(const Material& material, const shared::
     const Buffer result(device_, "directions", std::as_bytes(std::span(drawn)).size(),
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::device);
     scene.bind(device_, layout_);
-    bindBuffer(device_, layout_, kFrame, frameBuffer.get(), 0, frameBuffer.sizeBytes());
-    bindBuffer(device_, layout_, kResult, result.get(), 0, result.sizeBytes());
+    bindBuffer(device_, layout_, kRoutineFrame, frameBuffer.get(), 0, frameBuffer.sizeBytes());
+    bindBuffer(device_, layout_, kRoutineResult, result.get(), 0, result.sizeBytes());
     const uint32_t groups = (push.count + shared::kWorkgroupSize - 1) / shared::kWorkgroupSize;
     device_.run("bsdf",
                 [&](VkCommandBuffer commands) { launch(device_, commands, layout_, kernel_, {}, &push, groups); });

@@ -11,12 +11,11 @@
 #include "shaders/shared/frame.h"
 #include "tests/shaders/routines.h"
 #include "tests/support/paths.h"
+#include "tests/support/routine_bindings.h"
 
 namespace raylab::support {
 namespace {
 
-constexpr BindingInfo kFrame{shared::kBindFrame, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
-constexpr BindingInfo kResult{shared::kBindHits, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 constexpr BindingInfo kMask{shared::kBindBlueNoise, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER};
 constexpr BindingInfo kTexels{shared::kBindEnvironment, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER};
 constexpr BindingInfo kAlias{shared::kBindEnvironmentAlias, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER};
@@ -57,10 +56,10 @@ std::vector<glm::vec4> drawSamples(Device& device, const DrawConfig& config) {
     const Buffer result(device, "samples", bytes(drawn).size(),
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::device);
 
-    const BindingInfo bindings[] = {kFrame, kResult, kMask, kTexels, kAlias};
+    const BindingInfo bindings[] = {kRoutineFrame, kRoutineResult, kMask, kTexels, kAlias};
     const KernelLayout layout(device, bindings, sizeof(shared::SamplesPush));
-    bindBuffer(device, layout, kFrame, frameBuffer.get(), 0, frameBuffer.sizeBytes());
-    bindBuffer(device, layout, kResult, result.get(), 0, result.sizeBytes());
+    bindBuffer(device, layout, kRoutineFrame, frameBuffer.get(), 0, frameBuffer.sizeBytes());
+    bindBuffer(device, layout, kRoutineResult, result.get(), 0, result.sizeBytes());
     bindTexelView(device, layout, kMask.binding, mask.view.get());
     bindTexelView(device, layout, kTexels.binding, texels.view.get());
     bindTexelView(device, layout, kAlias.binding, alias.view.get());

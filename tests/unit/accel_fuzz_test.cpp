@@ -13,11 +13,11 @@
 namespace raylab {
 namespace {
 
+using accel_test::kNodeBase;
+using accel_test::kSlotBase;
 using accel_test::Random;
 using accel_test::TestMesh;
 
-constexpr uint32_t kNodeBase = 1000;
-constexpr uint32_t kSlotBase = 5000;
 constexpr size_t kRays = 24;
 constexpr double kMargin = 1e-3;  ///< of a hit's barycentric coordinates, and of the next hit's distance
 

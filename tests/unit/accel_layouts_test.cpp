@@ -18,11 +18,10 @@
 namespace raylab {
 namespace {
 
+using accel_test::kNodeBase;
+using accel_test::kSlotBase;
 using accel_test::Random;
 using accel_test::TestMesh;
-
-constexpr uint32_t kNodeBase = 1000;
-constexpr uint32_t kSlotBase = 5000;
 
 struct Box {
     glm::dvec3 lo, hi;

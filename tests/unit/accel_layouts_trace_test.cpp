@@ -16,11 +16,11 @@
 namespace raylab {
 namespace {
 
+using accel_test::kNodeBase;
+using accel_test::kSlotBase;
 using accel_test::Random;
+using accel_test::randomRays;
 using accel_test::TestMesh;
-
-constexpr uint32_t kNodeBase = 1000;
-constexpr uint32_t kSlotBase = 5000;
 
 struct FloatHit {
     float t = std::numeric_limits<float>::infinity();
@@ -82,19 +82,6 @@ struct Traceable {
         return hit;
     }
 };
-
-/// From around and inside the box towards points in it; lengths of d from 1e-3 to 1e3.
-std::vector<OracleRay> randomRays(const Aabb& box, size_t count, uint32_t seed) {
-    Random random(seed);
-    std::vector<OracleRay> rays;
-    for (size_t i = 0; i < count; ++i) {
-        const glm::vec3 o = box.centroid() + random.inCube(-1.0f, 1.0f) * box.extent();
-        const glm::vec3 target = box.centroid() + random.inCube(-0.5f, 0.5f) * box.extent();
-        const float length = std::pow(10.0f, random.uniform(-3.0f, 3.0f));
-        rays.push_back({o, length * glm::normalize(target - o)});
-    }
-    return rays;
-}
 
 /// Every layout, where the oracle says that float arithmetic can decide: no edge and no second surface close by.
 void expectAgreement(const TestMesh& mesh, const std::vector<OracleRay>& rays, double margin, size_t leastHits) {

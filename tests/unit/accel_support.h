@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -67,6 +68,23 @@ inline std::vector<OracleRay> raysAlongAxes(size_t count, uint32_t seed) {
         d[axis] = random.below(2) == 0 ? 1.0f : -1.0f;
         if (i % 5 == 0) d[(axis + 1) % 3] = random.uniform(-1.0f, 1.0f);
         rays.push_back({o, d, 1e-4f});  // many origins lie on a face, whose t is 0 but for rounding
+    }
+    return rays;
+}
+
+/// Bases of flattened trees that are not zero.
+constexpr uint32_t kNodeBase = 1000;
+constexpr uint32_t kSlotBase = 5000;
+
+/// From around and inside the box towards points in it; lengths of d from 1e-3 to 1e3.
+inline std::vector<OracleRay> randomRays(const Aabb& box, size_t count, uint32_t seed) {
+    Random random(seed);
+    std::vector<OracleRay> rays;
+    for (size_t i = 0; i < count; ++i) {
+        const glm::vec3 o = box.centroid() + random.inCube(-1.0f, 1.0f) * box.extent();
+        const glm::vec3 target = box.centroid() + random.inCube(-0.5f, 0.5f) * box.extent();
+        const float length = std::pow(10.0f, random.uniform(-3.0f, 3.0f));
+        rays.push_back({o, length * glm::normalize(target - o)});
     }
     return rays;
 }

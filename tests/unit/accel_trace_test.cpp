@@ -15,10 +15,13 @@
 namespace raylab {
 namespace {
 
+using accel_test::kNodeBase;
+using accel_test::kSlotBase;
 using accel_test::Random;
+using accel_test::randomRays;
 using accel_test::TestMesh;
 
-struct FloatHit {
+struct Bvh2qHit {
     float t = std::numeric_limits<float>::infinity();
     float u = 0.0f;
     float v = 0.0f;
@@ -26,24 +29,22 @@ struct FloatHit {
 };
 
 /// Mesh, tree and what the kernels read, with bases that are not zero.
-struct Traceable {
+struct Bvh2qScene {
     const TestMesh& mesh;
     Bvh bvh;
     TreeBvh2q tree;
-    static constexpr uint32_t kNodeBase = 1000;
-    static constexpr uint32_t kPrimitiveBase = 5000;
 
-    explicit Traceable(const TestMesh& mesh_, const BvhConfig& config = {})
+    explicit Bvh2qScene(const TestMesh& mesh_, const BvhConfig& config = {})
         : mesh(mesh_),
           bvh(buildBinned(triangleBounds(mesh.positions, mesh.triangles), config)),
-          tree(flattenBvh2q(bvh, kNodeBase, kPrimitiveBase)) {}
+          tree(flattenBvh2q(bvh, kNodeBase, kSlotBase)) {}
 
-    FloatHit trace(const OracleRay& ray) const {
-        FloatHit hit;
+    Bvh2qHit trace(const OracleRay& ray) const {
+        Bvh2qHit hit;
         float tMax = std::numeric_limits<float>::infinity();
         const WatertightRay watertight = makeWatertightRay(ray.o, ray.d);
         const auto testLeaf = [&](uint32_t first, uint32_t count) {
-            for (uint32_t slot = first - kPrimitiveBase; slot < first - kPrimitiveBase + count; ++slot) {
+            for (uint32_t slot = first - kSlotBase; slot < first - kSlotBase + count; ++slot) {
                 const uint32_t id = bvh.order[slot];
                 const glm::uvec3& triangle = mesh.triangles[id];
                 if (intersectWatertight(watertight, mesh.positions[triangle.x], mesh.positions[triangle.y],
@@ -67,7 +68,7 @@ struct Agreement {
 };
 
 /// Compares where the oracle says that float arithmetic can decide: no edge and no second surface close by.
-Agreement compareWithOracle(const Traceable& scene, const std::vector<OracleRay>& rays, double margin) {
+Agreement compareWithOracle(const Bvh2qScene& scene, const std::vector<OracleRay>& rays, double margin) {
     const std::vector<OracleHit> expected = closestHitsDouble(scene.mesh.positions, scene.mesh.triangles, rays);
     Agreement agreement;
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -75,7 +76,7 @@ Agreement compareWithOracle(const Traceable& scene, const std::vector<OracleRay>
         if (oracle.margin < margin || (oracle.hit() && oracle.tNext < oracle.t * 1.0001)) continue;
         ++agreement.decidable;
         agreement.hits += oracle.hit() ? 1u : 0u;
-        const FloatHit hit = scene.trace(rays[i]);
+        const Bvh2qHit hit = scene.trace(rays[i]);
         if (hit.primitive != oracle.primitive)
             ++agreement.wrongHits;
         else if (oracle.hit() && std::abs(static_cast<double>(hit.t) - oracle.t) > 1e-4 * oracle.t)
@@ -84,25 +85,12 @@ Agreement compareWithOracle(const Traceable& scene, const std::vector<OracleRay>
     return agreement;
 }
 
-void expectAgreement(const Traceable& scene, const std::vector<OracleRay>& rays, double margin) {
+void expectAgreement(const Bvh2qScene& scene, const std::vector<OracleRay>& rays, double margin) {
     const Agreement agreement = compareWithOracle(scene, rays, margin);
     EXPECT_EQ(agreement.wrongHits, 0u);
     EXPECT_EQ(agreement.wrongDistances, 0u);
     EXPECT_GT(agreement.decidable, rays.size() * 3 / 4) << "too few rays left to mean anything";
     EXPECT_GT(agreement.hits, rays.size() / 20);
-}
-
-/// From around and inside the box towards points in it; lengths of d from 1e-3 to 1e3.
-std::vector<OracleRay> randomRays(const Aabb& box, size_t count, uint32_t seed) {
-    Random random(seed);
-    std::vector<OracleRay> rays;
-    for (size_t i = 0; i < count; ++i) {
-        const glm::vec3 o = box.centroid() + random.inCube(-1.0f, 1.0f) * box.extent();
-        const glm::vec3 target = box.centroid() + random.inCube(-0.5f, 0.5f) * box.extent();
-        const float length = std::pow(10.0f, random.uniform(-3.0f, 3.0f));
-        rays.push_back({o, length * glm::normalize(target - o)});
-    }
-    return rays;
 }
 
 TEST(AccelTriangle, ClosedForm) {
@@ -183,13 +171,13 @@ TEST(AccelOracle, ClosedForm) {
 
 TEST(AccelTrace, RandomSoupAgreesWithOracle) {
     const TestMesh mesh = accel_test::randomSoup(3000, 0.1f, 42);
-    const Traceable scene(mesh);
+    const Bvh2qScene scene(mesh);
     expectAgreement(scene, randomRays(scene.bvh.nodes[0].bounds, 15000, 43), 1e-4);
 }
 
 TEST(AccelTrace, SliversAgreeWithOracle) {
     const TestMesh mesh = accel_test::randomSlivers(3000, 44);
-    const Traceable scene(mesh);
+    const Bvh2qScene scene(mesh);
     // A sliver is 5e-4 wide and a few units away: its width carries 1e-3 of rounding in places.
     const Agreement agreement = compareWithOracle(scene, randomRays(scene.bvh.nodes[0].bounds, 8000, 45), 0.01);
     EXPECT_EQ(agreement.wrongHits, 0u);
@@ -200,19 +188,19 @@ TEST(AccelTrace, SliversAgreeWithOracle) {
 TEST(AccelTrace, DragonAgreesWithOracle) {
     const std::optional<TestMesh> dragon = accel_test::readDragon();
     if (!dragon) GTEST_SKIP() << accel_test::kNoDragon;
-    const Traceable whole(*dragon);
+    const Bvh2qScene whole(*dragon);
     // Triangles of 5e-4 seen from 0.3: positions carry 1e-4 of their size.
     expectAgreement(whole, randomRays(whole.bvh.nodes[0].bounds, 100, 46), 2e-3);
     TestMesh head;
     head.positions = dragon->positions;
     std::copy_n(dragon->triangles.begin(), 8000, std::back_inserter(head.triangles));
-    const Traceable part(head);
+    const Bvh2qScene part(head);
     expectAgreement(part, randomRays(part.bvh.nodes[0].bounds, 6000, 47), 2e-3);
 }
 
 TEST(AccelTrace, RaysAlongAxesAndInFacesAgreeWithOracle) {
     const TestMesh mesh = accel_test::gridOfCubes();
-    const Traceable scene(mesh);
+    const Bvh2qScene scene(mesh);
     const Agreement agreement = compareWithOracle(scene, accel_test::raysAlongAxes(20000, 48), 1e-4);
     EXPECT_EQ(agreement.wrongHits, 0u);
     EXPECT_EQ(agreement.wrongDistances, 0u);
@@ -221,7 +209,7 @@ TEST(AccelTrace, RaysAlongAxesAndInFacesAgreeWithOracle) {
 
 TEST(AccelTrace, RespectsTMinAndEndsEarly) {
     const TestMesh mesh = accel_test::sphere(1.0f, 20, 20, glm::vec3(0.0f));
-    const Traceable scene(mesh);
+    const Bvh2qScene scene(mesh);
     OracleRay ray{{0.05f, 0.02f, -3.0f}, {0.0f, 0.0f, 1.0f}};
     EXPECT_NEAR(scene.trace(ray).t, 2.0f, 0.03f);
     ray.tMin = 2.5f;
@@ -232,14 +220,14 @@ TEST(AccelTrace, RespectsTMinAndEndsEarly) {
         ++leaves;
         tMax = -1.0f;
     };
-    walkBvh2q(scene.tree.nodes, scene.tree.grid, Traceable::kNodeBase, ray.o, ray.d, 0.0f, tMax, stop);
+    walkBvh2q(scene.tree.nodes, scene.tree.grid, kNodeBase, ray.o, ray.d, 0.0f, tMax, stop);
     EXPECT_EQ(leaves, 1u) << "tMax below tMin ends the walk, but for leaves already on the stack";
 }
 
 /// S1 of the stability battery: from inside a closed sphere, at vertices and at points of edges.
 size_t countLeaks(const glm::vec3& center, uint32_t rings, size_t count) {
     const TestMesh mesh = accel_test::sphere(2.0f, rings, 2 * rings, center);
-    const Traceable scene(mesh);
+    const Bvh2qScene scene(mesh);
     Random random(49);
     size_t leaks = 0;
     for (size_t i = 0; i < count; ++i) {

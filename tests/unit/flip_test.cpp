@@ -103,10 +103,10 @@ TEST(Flip, DirectSumsOfThePaper) {
 /// A step from black to white against a grey: beside the step the edge detector answers 1, since its taps of one sign
 /// sum to 1, and the point detector less.
 TEST(Flip, StepEdgeInClosedForm) {
-    constexpr int kWidth = 60, kStep = 30;
-    Bitmap step(kWidth, 9, 3);
+    constexpr int kWide = 60, kStep = 30;
+    Bitmap step(kWide, 9, 3);
     for (int y = 0; y < 9; ++y)
-        for (int x = kStep; x < kWidth; ++x) std::fill_n(step.at(x, y), 3, 1.0f);
+        for (int x = kStep; x < kWide; ++x) std::fill_n(step.at(x, y), 3, 1.0f);
     const double sigma = std::sqrt(0.0047 / 2.0) / std::numbers::pi * kFlipPixelsPerDegree;
     double all = 0.0, right = 0.0;
     for (int x = -10; x <= 10; ++x) {
@@ -118,7 +118,7 @@ TEST(Flip, StepEdgeInClosedForm) {
     const double difference = std::abs(lightness(right / all) - lightness(0.3));
     const double color = 0.95 * std::pow(difference, 0.7) / (0.4 * kPublishedLargest);
     const double feature = std::sqrt(1.0 / std::numbers::sqrt2);
-    const Bitmap map = flipMap(step, constant(kWidth, 9, {0.3f, 0.3f, 0.3f}));
+    const Bitmap map = flipMap(step, constant(kWide, 9, {0.3f, 0.3f, 0.3f}));
     EXPECT_NEAR(*map.at(kStep, 4), std::pow(color, 1.0 - feature), 1e-4);
 }
 

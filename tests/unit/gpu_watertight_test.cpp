@@ -10,7 +10,7 @@ namespace {
 
 using accel_test::TestMesh;
 
-constexpr size_t kRays = size_t{1} << 18;
+constexpr size_t kEdgeRays = size_t{1} << 18;
 
 using Watertight = GpuTest;
 
@@ -25,14 +25,14 @@ size_t countLeaks(Device& device, const Scene& scene, const RenderSettings& sett
 
 TEST_F(Watertight, NoLeaksThroughManyBumps) {
     const TestMesh mesh = bumpyBall(200);
-    EXPECT_EQ(countLeaks(device_, sceneOf(mesh), {}, raysAtEdges(mesh, glm::vec3(0.0f), kRays)), 0u);
+    EXPECT_EQ(countLeaks(device_, sceneOf(mesh), {}, raysAtEdges(mesh, glm::vec3(0.0f), kEdgeRays)), 0u);
 }
 
 TEST_F(Watertight, NoLeaksAwayFromTheOrigin) {
     const glm::vec3 centre(100.0f, 37.0f, -211.0f);
     for (const uint32_t rings : {50u, 200u}) {
         const TestMesh mesh = ball(rings, centre);
-        EXPECT_EQ(countLeaks(device_, sceneOf(mesh), {}, raysAtEdges(mesh, centre, kRays)), 0u);
+        EXPECT_EQ(countLeaks(device_, sceneOf(mesh), {}, raysAtEdges(mesh, centre, kEdgeRays)), 0u);
     }
 }
 
@@ -45,7 +45,7 @@ TEST_F(Watertight, NoLeaksOfATurnedInstance) {
         Scene scene = sceneOf(mesh);
         scene.instances[0].objectToWorld = matrix;
         addInstance(scene, 0, glm::translate(glm::mat4(1.0f), {30.0f, 0.0f, 0.0f}));
-        const std::vector<shared::RayData> rays = raysAtEdges(mesh, glm::vec3(0.0f), kRays, matrix);
+        const std::vector<shared::RayData> rays = raysAtEdges(mesh, glm::vec3(0.0f), kEdgeRays, matrix);
         for (const RenderSettings& settings : {RenderSettings{}, twoLevels({})})
             EXPECT_EQ(countLeaks(device_, scene, settings, rays), 0u) << nameOf(settings);
     }

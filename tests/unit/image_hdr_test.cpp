@@ -74,10 +74,10 @@ TEST(ImageHdr, KnownBytes) {
 
 TEST(ImageHdr, ValuesThatTheFormatCannotHold) {
     const ScratchFolder folder;
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
     Bitmap bitmap(3, 1, 3);
-    bitmap.pixels = {std::nanf(""), -3.0f,  2.0f, kInfinity, std::numeric_limits<float>::max(),
-                     -kInfinity,    1e-42f, 0.0f, 0.0f};
+    bitmap.pixels = {std::nanf(""), -3.0f,  2.0f, kInfinite, std::numeric_limits<float>::max(),
+                     -kInfinite,    1e-42f, 0.0f, 0.0f};
     writeHdr(folder / "a.hdr", bitmap);
     const Bitmap read = readImage(folder / "a.hdr");
     const float highest = 255.0f * 0x1p119f;

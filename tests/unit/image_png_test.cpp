@@ -69,8 +69,8 @@ TEST(ImagePng, AlphaIsLinearAndKeptOnRequest) {
 TEST(ImagePng, GreyAndValuesOutOfRange) {
     const ScratchFolder folder;
     Bitmap bitmap(5, 1, 1);
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    bitmap.pixels = {std::nanf(""), -1.0f, kInfinity, 2.0f, -kInfinity};
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    bitmap.pixels = {std::nanf(""), -1.0f, kInfinite, 2.0f, -kInfinite};
     writePng(folder / "a.png", bitmap);
     const Bitmap read = readImage(folder / "a.png", Alpha::keep);
     ASSERT_EQ(read.channels, 3);

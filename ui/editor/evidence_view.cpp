@@ -14,7 +14,7 @@
 namespace raylab {
 namespace {
 
-constexpr size_t kMostLines = 400;
+constexpr size_t kMostRays = 400;
 constexpr float kRayShare = 0.35f;     ///< of the scene's diagonal: how far a ray is drawn
 constexpr int64_t kLeastSamples = 64;  ///< of the viewport's picture
 
@@ -28,7 +28,7 @@ struct EvidenceState {
 void drawRays(const EvidenceState& state, const LinePainter& painter) {
     const ImU32 red = ImGui::GetColorU32(ImVec4(1.0f, 0.35f, 0.3f, 0.55f));
     const ImU32 start = ImGui::GetColorU32(color::kSelection);
-    const size_t step = std::max<size_t>(state.evidence.rays.size() / kMostLines, 1);
+    const size_t step = std::max<size_t>(state.evidence.rays.size() / kMostRays, 1);
     for (size_t i = 0; i < state.evidence.rays.size(); i += step) {
         const shared::RayData& ray = state.evidence.rays[i];
         const glm::vec3 way = kRayShare * state.diagonal * glm::normalize(ray.direction);

@@ -11,11 +11,11 @@
 namespace raylab {
 namespace {
 
-using Row = Setting<RenderSettings>;
+using SettingRow = Setting<RenderSettings>;
 
-bool drawBool(const Row&, bool& value) { return ImGui::Checkbox("##value", &value); }
+bool drawBool(const SettingRow&, bool& value) { return ImGui::Checkbox("##value", &value); }
 
-bool drawInteger(const Row& row, int64_t& value) {
+bool drawInteger(const SettingRow& row, int64_t& value) {
     int64_t edited = value;
     ImGui::InputScalar("##value", ImGuiDataType_S64, &edited, nullptr, nullptr, nullptr,
                        ImGuiInputTextFlags_EnterReturnsTrue);
@@ -24,7 +24,7 @@ bool drawInteger(const Row& row, int64_t& value) {
     return true;
 }
 
-bool drawNumber(const Row& row, double& value) {
+bool drawNumber(const SettingRow& row, double& value) {
     const double range = row.highest - row.lowest;
     const float speed = static_cast<float>(range <= 128.0 ? range * 0.002 : std::max(std::abs(value) * 0.01, 0.01));
     if (!ImGui::DragScalar("##value", ImGuiDataType_Double, &value, speed, &row.lowest, &row.highest, "%.4g"))
@@ -33,7 +33,7 @@ bool drawNumber(const Row& row, double& value) {
     return true;
 }
 
-bool drawText(const Row& row, std::string& value) {
+bool drawText(const SettingRow& row, std::string& value) {
     if (row.choices.empty()) {
         ImGui::InputText("##value", &value, ImGuiInputTextFlags_EnterReturnsTrue);
         return ImGui::IsItemDeactivatedAfterEdit();
@@ -49,12 +49,12 @@ bool drawText(const Row& row, std::string& value) {
     return changed;
 }
 
-bool drawValue(const Row& row, bool& value) { return drawBool(row, value); }
-bool drawValue(const Row& row, int64_t& value) { return drawInteger(row, value); }
-bool drawValue(const Row& row, double& value) { return drawNumber(row, value); }
-bool drawValue(const Row& row, std::string& value) { return drawText(row, value); }
+bool drawValue(const SettingRow& row, bool& value) { return drawBool(row, value); }
+bool drawValue(const SettingRow& row, int64_t& value) { return drawInteger(row, value); }
+bool drawValue(const SettingRow& row, double& value) { return drawNumber(row, value); }
+bool drawValue(const SettingRow& row, std::string& value) { return drawText(row, value); }
 
-void drawHelp(const Row& row, const std::string& standard, const std::string& standardName) {
+void drawHelp(const SettingRow& row, const std::string& standard, const std::string& standardName) {
     if (!ImGui::IsItemHovered()) return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);

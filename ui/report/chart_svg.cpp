@@ -8,6 +8,7 @@
 
 #include "engine/measure/log_axis.h"
 #include "ui/report/chart_output.h"
+#include "ui/report/svg_text.h"
 
 namespace raylab {
 namespace {
@@ -45,12 +46,6 @@ struct Axis {
     double at(double value) const { return from + values.partOf(value) * (to - from); }
 };
 
-std::string text(const char* format, double a, double b = 0.0, double c = 0.0, double d = 0.0) {
-    std::array<char, 192> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), format, a, b, c, d);
-    return buffer.data();
-}
-
 double clampedEnd(double end, double value) { return std::isfinite(end) && end > 0.0 ? end : value; }
 
 struct Frame {
@@ -71,31 +66,31 @@ std::string drawAxes(const Frame& frame, const std::string& errorLabel) {
     std::string svg;
     for (const LogTick& tick : logTicks(frame.time.values)) {
         const double x = frame.time.at(tick.value);
-        svg += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"", x, x, kTop, kTop + kPlotHeight) +
+        svg += svgText("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"", x, x, kTop, kTop + kPlotHeight) +
                (tick.isLabelled ? "grid\"/>\n" : "minor\"/>\n");
         if (tick.isLabelled)
-            svg += text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x, kTop + kPlotHeight + 19.0) +
+            svg += svgText("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x, kTop + kPlotHeight + 19.0) +
                    secondsText(tick.value) + "</text>\n";
     }
     for (const LogTick& tick : logTicks(frame.error.values)) {
         const double y = frame.error.at(tick.value);
-        svg += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"", kLeft, kLeft + kPlotWidth, y, y) +
+        svg += svgText("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"", kLeft, kLeft + kPlotWidth, y, y) +
                (tick.isLabelled ? "grid\"/>\n" : "minor\"/>\n");
         if (tick.isLabelled)
-            svg += text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">", kLeft - 8.0, y + 4.5) +
+            svg += svgText("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">", kLeft - 8.0, y + 4.5) +
                    shortNumber(tick.value) + "</text>\n";
     }
-    svg += text("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"frame\"/>\n", kLeft, kTop,
+    svg += svgText("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"frame\"/>\n", kLeft, kTop,
                 kPlotWidth, kPlotHeight);
-    svg += text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">time on the device</text>\n",
+    svg += svgText("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">time on the device</text>\n",
                 kLeft + kPlotWidth / 2, kTop + kPlotHeight + 44.0);
-    svg += text("<text transform=\"translate(18 %.1f) rotate(-90)\" text-anchor=\"middle\">", kTop + kPlotHeight / 2) +
+    svg += svgText("<text transform=\"translate(18 %.1f) rotate(-90)\" text-anchor=\"middle\">", kTop + kPlotHeight / 2) +
            xmlEscaped(errorLabel) + "</text>\n";
     return svg;
 }
 
 std::string point(const Frame& frame, double seconds, double error) {
-    return text("%.1f,%.1f ", frame.time.at(seconds), frame.error.at(error));
+    return svgText("%.1f,%.1f ", frame.time.at(seconds), frame.error.at(error));
 }
 
 std::string strokeOf(size_t curve) {
@@ -120,13 +115,13 @@ std::string marker(size_t index, double x, double y) {
     const std::string fill = " fill=\"" + std::string(curveColor(index)) + "\"";
     switch (index % 4) {
         case 0:
-            return text("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.8\"", x, y) + fill;
+            return svgText("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.8\"", x, y) + fill;
         case 1:
-            return text("<rect x=\"%.1f\" y=\"%.1f\" width=\"7\" height=\"7\"", x - 3.5, y - 3.5) + fill;
+            return svgText("<rect x=\"%.1f\" y=\"%.1f\" width=\"7\" height=\"7\"", x - 3.5, y - 3.5) + fill;
         case 2:
-            return text("<path d=\"M%.1f %.1fl4.4 7.6h-8.8z\"", x, y - 4.8) + fill;
+            return svgText("<path d=\"M%.1f %.1fl4.4 7.6h-8.8z\"", x, y - 4.8) + fill;
         default:
-            return text("<path d=\"M%.1f %.1fl4.8 4.8l-4.8 4.8l-4.8 -4.8z\"", x, y - 4.8) + fill;
+            return svgText("<path d=\"M%.1f %.1fl4.8 4.8l-4.8 4.8l-4.8 -4.8z\"", x, y - 4.8) + fill;
     }
 }
 
@@ -155,7 +150,7 @@ std::string drawFront(const Frame& frame, const std::vector<ChartCurve>& curves)
     std::string line, rings;
     for (const ChartGroup* group : front) {
         line += point(frame, group->deviceSeconds.value, group->error.value);
-        rings += text("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"7\" class=\"ring\"/>\n",
+        rings += svgText("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"7\" class=\"ring\"/>\n",
                       frame.time.at(group->deviceSeconds.value), frame.error.at(group->error.value));
     }
     return "<polyline class=\"front\" points=\"" + line + "\"/>\n" + rings;
@@ -171,7 +166,7 @@ std::string drawPlateaus(const Frame& frame, const std::vector<ChartCurve>& curv
         double y = frame.error.at(last.error.value) - 11.0;
         if (std::abs(y - free) < 13.0) y = free - 13.0;
         free = y;
-        svg += text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" class=\"small halo\">", x, y) + "bias " +
+        svg += svgText("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" class=\"small halo\">", x, y) + "bias " +
                shortNumber(curves[i].bias.value) + "</text>\n";
     }
     return svg;
@@ -196,18 +191,18 @@ std::string drawLegend(const std::vector<ChartCurve>& curves) {
     std::string svg;
     double y = kTop + 10.0;
     for (size_t i = 0; i < curves.size(); ++i, y += kLegendLine) {
-        svg += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke-width=\"1.8\" ", kLegendX,
+        svg += svgText("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke-width=\"1.8\" ", kLegendX,
                     kLegendX + 26.0, y, y) +
                strokeOf(i) + "/>\n" + marker(i, kLegendX + 13.0, y) + "/>\n";
         svg +=
-            text("<text x=\"%.1f\" y=\"%.1f\">", kLegendX + 34.0, y + 4.0) + xmlEscaped(curves[i].config) + "</text>\n";
-        svg += text("<text x=\"%.1f\" y=\"%.1f\" class=\"soft small\">", kLegendX + 34.0, y + 18.0) +
+            svgText("<text x=\"%.1f\" y=\"%.1f\">", kLegendX + 34.0, y + 4.0) + xmlEscaped(curves[i].config) + "</text>\n";
+        svg += svgText("<text x=\"%.1f\" y=\"%.1f\" class=\"soft small\">", kLegendX + 34.0, y + 18.0) +
                xmlEscaped(slopeText(curves[i])) + "</text>\n";
     }
-    svg += text("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"front\"/>", kLegendX, kLegendX + 26.0, y,
+    svg += svgText("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" class=\"front\"/>", kLegendX, kLegendX + 26.0, y,
                 y) +
-           text("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"7\" class=\"ring\"/>\n", kLegendX + 13.0, y) +
-           text("<text x=\"%.1f\" y=\"%.1f\">Pareto front</text>\n", kLegendX + 34.0, y + 4.0);
+           svgText("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"7\" class=\"ring\"/>\n", kLegendX + 13.0, y) +
+           svgText("<text x=\"%.1f\" y=\"%.1f\">Pareto front</text>\n", kLegendX + 34.0, y + 4.0);
     return svg;
 }
 
@@ -247,15 +242,15 @@ std::string chartSvg(const std::vector<ChartCurve>& curves, const ChartLabels& l
     const Frame frame = frameOf(curves);
     const double legendBottom = kTop + kLegendLine * (static_cast<double>(curves.size()) + 1.0);
     const double height = std::max(kTop + kPlotHeight + kBottom, legendBottom + 10.0);
-    std::string svg = text(
+    std::string svg = svgText(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" "
         "height=\"%.0f\" role=\"img\">\n",
         kWidth, height, kWidth, height);
     svg += kStyle;
     svg += "<title>" + xmlEscaped(labels.title) + "</title>\n";
-    svg += text("<rect width=\"%.0f\" height=\"%.0f\" class=\"paper\"/>\n", kWidth, height);
-    svg += text("<text x=\"%.1f\" y=\"26\" class=\"title\">", kLeft) + xmlEscaped(labels.title) + "</text>\n";
-    svg += text("<text x=\"%.1f\" y=\"46\" class=\"soft\">", kLeft) + xmlEscaped(labels.subtitle) + "</text>\n";
+    svg += svgText("<rect width=\"%.0f\" height=\"%.0f\" class=\"paper\"/>\n", kWidth, height);
+    svg += svgText("<text x=\"%.1f\" y=\"26\" class=\"title\">", kLeft) + xmlEscaped(labels.title) + "</text>\n";
+    svg += svgText("<text x=\"%.1f\" y=\"46\" class=\"soft\">", kLeft) + xmlEscaped(labels.subtitle) + "</text>\n";
     svg += drawAxes(frame, labels.errorAxis);
     for (size_t i = 0; i < curves.size(); ++i)
         if (!curves[i].groups.empty()) svg += drawBand(frame, curves[i], i);

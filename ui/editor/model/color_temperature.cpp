@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/luminance.h"
+
 namespace raylab::editor {
 namespace {
 
@@ -53,9 +55,7 @@ glm::dvec2 blackbodyChromaticity(double kelvin) {
 glm::vec3 blackbodyColor(double kelvin) {
     const glm::dvec3 xyz = blackbodyXyz(std::clamp(kelvin, kLowestKelvin, kHighestKelvin));
     const glm::vec3 color(glm::max(linearSrgb(xyz / xyz.y), glm::dvec3(0.0)));
-    return color / luminance(color);
+    return color / static_cast<float>(luminance(color));
 }
-
-float luminance(glm::vec3 color) { return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 }  // namespace raylab::editor

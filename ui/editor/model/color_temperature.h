@@ -18,7 +18,4 @@ glm::dvec2 blackbodyChromaticity(double kelvin);
 /// 1900 K) is taken to its edge. The temperature is taken into kLowestKelvin to kHighestKelvin.
 glm::vec3 blackbodyColor(double kelvin);
 
-/// Rec. 709 luminance of linear sRGB primaries.
-float luminance(glm::vec3 color);
-
 }  // namespace raylab::editor

@@ -17,13 +17,13 @@ constexpr const char* kSchema = "raylab.camera/1";
 constexpr float kNarrowestRadians = 0.0017453f;
 constexpr float kWidestRadians = 3.1241394f;
 
-bool isBounded(glm::vec3 v) {
+bool areBounded(glm::vec3 v) {
     return std::abs(v.x) <= kLargestSceneCoordinate && std::abs(v.y) <= kLargestSceneCoordinate &&
            std::abs(v.z) <= kLargestSceneCoordinate;
 }
 
 void requireView(const Camera& camera) {
-    const bool isFinite = isBounded(camera.position) && isBounded(camera.target) && isBounded(camera.up);
+    const bool isFinite = areBounded(camera.position) && areBounded(camera.target) && areBounded(camera.up);
     if (!isFinite || camera.position == camera.target || camera.up == glm::vec3(0.0f))
         throw Error("camera '" + camera.name + "' looks nowhere: its position and target must be finite and differ");
     if (!(camera.fovYRadians >= kNarrowestRadians && camera.fovYRadians <= kWidestRadians))

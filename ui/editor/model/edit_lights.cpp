@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/luminance.h"
 #include "engine/scene/import_mesh.h"
 #include "ui/editor/model/color_temperature.h"
 
@@ -80,7 +81,7 @@ Edit deleteLight(uint32_t index) {
 }
 
 Light withTemperature(Light light, double kelvin) {
-    light.intensity = blackbodyColor(kelvin) * luminance(light.intensity);
+    light.intensity = blackbodyColor(kelvin) * static_cast<float>(luminance(light.intensity));
     return light;
 }
 

@@ -6,7 +6,7 @@ namespace raylab::editor {
 namespace {
 
 constexpr double kNearest = 1e-6;  ///< depth from which on a point has a pixel
-constexpr double kParallel = 1e-6;
+constexpr double kAlongUp = 1e-6;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ GizmoView::GizmoView(const Camera& camera, double width, double height)
       width_(width),
       height_(height) {
     glm::dvec3 up(camera.up);
-    if (glm::length(glm::cross(forward_, up)) < kParallel)
+    if (glm::length(glm::cross(forward_, up)) < kAlongUp)
         up = std::abs(forward_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
     right_ = glm::normalize(glm::cross(forward_, up));
     up_ = glm::cross(right_, forward_);

@@ -9,13 +9,13 @@
 namespace raylab {
 namespace {
 
-using Row = Setting<RenderSettings>;
+using SettingRow = Setting<RenderSettings>;
 
 struct SettingsSearch {
     ImGuiTextFilter filter;
 };
 
-void drawRow(EditorContext& context, const Row& row) {
+void drawRow(EditorContext& context, const SettingRow& row) {
     RenderSettings settings = context.state.settings();
     if (!drawSettingRow(row, settings, RenderSettings{}, "default")) return;
     const std::string name(row.name);
@@ -63,7 +63,7 @@ void drawRenderPanel(EditorContext& context) {
     ImGui::Separator();
     searchField("##filter", filter, "Search the settings");
     if (!beginSettingsTable("settings")) return;
-    for (const Row& row : renderSettingsTable())
+    for (const SettingRow& row : renderSettingsTable())
         if (filter.PassFilter(std::string(row.name).c_str())) drawRow(context, row);
     ImGui::EndTable();
 }
