@@ -12,22 +12,23 @@ namespace raylab {
 
 /// A field of shared::RayCounts.
 struct CountField {
-    std::string_view name;
+    std::string_view name;   ///< in files
+    std::string_view title;  ///< before a reader
     std::string_view help;
     shared::uint shared::RayCounts::*member;
 };
 
 inline constexpr std::array kCountFields = {
-    CountField{"steps", "of the walk's loop", &shared::RayCounts::steps},
-    CountField{"nodes", "fetched", &shared::RayCounts::nodes},
-    CountField{"boxesTested", "children's boxes", &shared::RayCounts::boxesTested},
-    CountField{"boxesHit", "of those", &shared::RayCounts::boxesHit},
-    CountField{"primitivesTested",
+    CountField{"steps", "loop steps", "of the walk's loop", &shared::RayCounts::steps},
+    CountField{"nodes", "nodes", "fetched", &shared::RayCounts::nodes},
+    CountField{"boxesTested", "boxes tested", "children's boxes", &shared::RayCounts::boxesTested},
+    CountField{"boxesHit", "boxes hit", "of those", &shared::RayCounts::boxesHit},
+    CountField{"primitivesTested", "primitives tested",
                "triangles and quadrics; of the driver's tracers: candidates the kernel was asked about",
                &shared::RayCounts::primitivesTested},
-    CountField{"primitivesHit", "closer than what was known then", &shared::RayCounts::primitivesHit},
-    CountField{"instances", "entered", &shared::RayCounts::instances},
-    CountField{"stackHigh", "entries of the stack in use at most", &shared::RayCounts::stackHigh},
+    CountField{"primitivesHit", "primitives hit", "closer than what was known then", &shared::RayCounts::primitivesHit},
+    CountField{"instances", "instances", "entered", &shared::RayCounts::instances},
+    CountField{"stackHigh", "stack high-water mark", "entries of the stack in use at most", &shared::RayCounts::stackHigh},
 };
 
 /// What one bounce of an image's paths cost.

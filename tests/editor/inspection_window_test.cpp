@@ -34,8 +34,8 @@ TEST_F(WindowTest, ShowsBoxesAndSelectsALeafByClick) {
 TEST_F(WindowTest, ListsNodesAndExportsThem) {
     EXPECT_EQ(runScript(kCornellToInspect,
                         "wait-samples 1\npanel Nodes\nwait-until bvh-nodes > 1\nprint bvh-nodes\nwait 0.3\n"
-                        "click 280 635\nwait-until bvh-selected >= 0\nscreenshot nodes.png\n"
-                        "click 607 590\nwait 0.2\nwait-until job == \"\"\nassert errors == 0\nquit\n"),
+                        "click 280 535\nwait-until bvh-selected >= 0\nscreenshot nodes.png\n"
+                        "click 607 490\nwait 0.2\nwait-until job == \"\"\nassert errors == 0\nquit\n"),
               0)
         << readFile("log");
     const std::string csv = readFile("raylab-nodes-1.csv");
@@ -51,9 +51,9 @@ TEST_F(WindowTest, StepsAlongARayAndExportsIt) {
             "wait-samples 1\nkey Right\nassert ray-bounces == 0\nkey r\nwait-until bvh-sah > 1\nwait 0.2\n"
             "click v0.62 v0.55\nwait-until ray-bounces == 1\nassert ray-hit == 1\nassert ray-steps > 2\n"
             "assert ray-step == 0\nkey Left\nassert ray-step == 0\nkey Right\nkey Right\nassert ray-step == 2\n"
-            "print ray-steps\nwait 0.2\nscreenshot step.png\nclick 658 590\nwait 0.2\nwait-until job == \"\"\n"
-            "click 535 590\nwait-until ray-bounces == 2\nclick 595 590\nwait-until ray-bounces == 3\n"
-            "key r\nclick v0.01 v0.01\nwait-until ray-hit == 0\nassert ray-bounces == 1\nclick 535 590\nwait 0.2\n"
+            "print ray-steps\nwait 0.2\nscreenshot step.png\nclick 658 490\nwait 0.2\nwait-until job == \"\"\n"
+            "click 535 490\nwait-until ray-bounces == 2\nclick 595 490\nwait-until ray-bounces == 3\n"
+            "key r\nclick v0.01 v0.01\nwait-until ray-hit == 0\nassert ray-bounces == 1\nclick 535 490\nwait 0.2\n"
             "assert ray-bounces == 1\nassert errors == 0\nquit\n"),
         0)
         << readFile("log");

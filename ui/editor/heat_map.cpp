@@ -105,7 +105,7 @@ void drawScale(const EditorContext& context, const HeatState& heat) {
     const ImVec2 hi(lo.x + width + 2.0f * pad, context.view.y + context.view.height - pad);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(lo, hi, IM_COL32(20, 20, 24, 215), 3.0f * s);
-    std::string title = std::string(kCountFields[heat.field].name) +
+    std::string title = std::string(kCountFields[heat.field].title) +
                         (heat.bounce == 0 ? ", primary rays" : ", bounce " + std::to_string(heat.bounce));
     if (const auto here = countUnderPointer(context, heat)) title += ": " + std::to_string(*here);
     list.AddText({lo.x + pad, lo.y + 0.5f * pad}, ImGui::GetColorU32(color::kText), title.c_str());

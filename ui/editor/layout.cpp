@@ -83,8 +83,8 @@ void drawViewport(EditorContext& context, const Box& box) {
     ImGui::End();
 }
 
-/// A line that is dragged across: changes `size` by the pointer's way along the axis, times `sign`.
-void drawSplitter(const char* name, const Box& box, bool vertical, float sign, float& size, float largest) {
+/// A line that is dragged across: changes `size` by the pointer's way along the axis, times `sign`. Whether it is held.
+bool drawSplitter(const char* name, const Box& box, bool vertical, float sign, float& size, float largest) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
     beginPane(name, box, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav);
@@ -99,6 +99,7 @@ void drawSplitter(const char* name, const Box& box, bool vertical, float sign, f
     size = std::clamp(size, kSmallestPane, std::max(largest, kSmallestPane));
     ImGui::End();
     ImGui::PopStyleVar(2);
+    return active;
 }
 
 std::string progressText(const RenderStatus& s) {
@@ -167,7 +168,8 @@ void drawLayout(EditorContext& context) {
     EditorConfig& config = context.config;
     const float splitter = kSplitter * s, status = kStatusHeight * s;
     const float height = display.y - top - status;
-    const float left = config.leftWidth * s, right = config.rightWidth * s, bottom = std::max(config.bottomHeight, leastHeightOf(context, Pane::bottom)) * s;
+    float bottomHeight = std::max(config.bottomHeight, leastHeightOf(context, Pane::bottom));
+    const float left = config.leftWidth * s, right = config.rightWidth * s, bottom = bottomHeight * s;
     const float centreX = left + splitter;
     const float centreWidth = std::max(display.x - left - right - 2.0f * splitter, 50.0f);
     const float viewHeight = std::max(height - bottom - splitter, 50.0f);
@@ -182,8 +184,9 @@ void drawLayout(EditorContext& context) {
     drawSplitter("split left", {left, top, splitter, height}, true, 1.0f / s, config.leftWidth, widest);
     drawSplitter("split right", {display.x - right - splitter, top, splitter, height}, true, -1.0f / s, config.rightWidth,
                  widest);
-    drawSplitter("split bottom", {centreX, top + viewHeight, centreWidth, splitter}, false, -1.0f / s, config.bottomHeight,
-                 0.7f * height / s);
+    if (drawSplitter("split bottom", {centreX, top + viewHeight, centreWidth, splitter}, false, -1.0f / s, bottomHeight,
+                     0.7f * height / s))
+        config.bottomHeight = bottomHeight;
     context.layoutRequest.clear();
     drawKeysOverlay(context);
 }

@@ -2,6 +2,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <set>
 
 #include "ui/editor/advice_feed.h"
 #include "ui/editor/panels.h"
@@ -20,8 +21,39 @@ struct AdvicePanel {
     bool byTime = false;
     double seconds = 5.0;
     int width = 160;
+    std::set<std::string, std::less<>> held;  ///< settings that are not searched
     std::string file;
+
+    std::vector<std::string> searched() const {
+        std::vector<std::string> names = adviceSettings();
+        std::erase_if(names, [this](const std::string& name) { return held.contains(name); });
+        return names;
+    }
 };
+
+/// Which settings are tried: the fewer, the sooner there is an answer.
+void drawSearched(EditorContext& context, AdvicePanel& p) {
+    const std::vector<std::string> all = adviceSettings();
+    const std::vector<std::string> searched = p.searched();
+    const std::string text = searched.size() == all.size() ? "all settings" : searched.size() == 1 ? searched.front() :
+                             std::to_string(searched.size()) + " settings";
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(color::kDim, "searching");
+    ImGui::SameLine(120.0f * context.scale);
+    ImGui::SetNextItemWidth(-1.0f);
+    const bool open = ImGui::BeginCombo("##searched", text.c_str(), ImGuiComboFlags_HeightLarge);
+    notePlace(context, "advice-searched");
+    if (!open) return;
+    for (const std::string& name : all) {
+        bool tried = !p.held.contains(name);
+        // The last one stays: a search of nothing would be one of everything.
+        ImGui::BeginDisabled(tried && searched.size() == 1);
+        if (ImGui::Checkbox(name.c_str(), &tried)) tried ? void(p.held.erase(name)) : void(p.held.insert(name));
+        notePlace(context, "advice-search-" + name);
+        ImGui::EndDisabled();
+    }
+    ImGui::EndCombo();
+}
 
 /// What is asked for. The error is that of the dial in the Chart panel.
 void drawGoal(EditorContext& context, AdvicePanel& p, bool running) {
@@ -42,6 +74,7 @@ void drawGoal(EditorContext& context, AdvicePanel& p, bool running) {
     ImGui::InputInt("##width", &p.width, 0, 0, ImGuiInputTextFlags_AutoSelectAll);
     p.width = std::clamp(p.width, 16, 1920);
     notePlace(context, "advice-width");
+    drawSearched(context, p);
     if (running) {
         if (ImGui::Button("Stop", {-1.0f, 0.0f})) context.measuring.cancel();
         notePlace(context, "advice-stop");
@@ -49,7 +82,7 @@ void drawGoal(EditorContext& context, AdvicePanel& p, bool running) {
     }
     ImGui::BeginDisabled(!context.state.hasScene() || !context.measuring.busyWith().empty());
     if (ImGui::Button("Find the cheapest settings", {-1.0f, 0.0f}))
-        startAdvice(context, {p.byTime ? 0.0 : targetOf(context), p.byTime ? p.seconds : 0.0, {}}, p.width, p.feed);
+        startAdvice(context, {p.byTime ? 0.0 : targetOf(context), p.byTime ? p.seconds : 0.0, p.searched()}, p.width, p.feed);
     notePlace(context, "advice-run");
     ImGui::EndDisabled();
 }

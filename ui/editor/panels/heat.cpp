@@ -11,13 +11,13 @@
 namespace raylab {
 namespace {
 
-const char* fieldName(size_t field) { return kCountFields[field].name.data(); }
+const char* fieldTitle(size_t field) { return kCountFields[field].title.data(); }
 
 void drawFieldChoice(HeatState& heat) {
     ImGui::SetNextItemWidth(-1.0f);
-    if (ImGui::BeginCombo("##counter", fieldName(heat.field))) {
+    if (ImGui::BeginCombo("##counter", fieldTitle(heat.field))) {
         for (size_t i = 0; i < kCountFields.size(); ++i) {
-            if (ImGui::Selectable(fieldName(i), heat.field == i)) heat.field = i;
+            if (ImGui::Selectable(fieldTitle(i), heat.field == i)) heat.field = i;
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kCountFields[i].help.data());
         }
         ImGui::EndCombo();
