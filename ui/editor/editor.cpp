@@ -1,6 +1,7 @@
 #include "ui/editor/editor.h"
 
 #include <imgui.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
@@ -37,6 +38,7 @@ constexpr double kRestSeconds = 0.2;    ///< without a movement, until the pictu
 constexpr double kFrameSeconds = 0.015; ///< from frame to frame while something moves or settles
 constexpr double kIdleSeconds = 0.5;    ///< between frames while nothing happens
 constexpr uint32_t kSwapchainImages = 3;
+constexpr int kOwnPages = 1 << 20;      ///< bytes, from which an allocation has pages of its own
 constexpr int kSettlingFrames = 3;      ///< that ImGui wants after an event
 
 using Clock = std::chrono::steady_clock;
@@ -332,6 +334,9 @@ private:
 }  // namespace
 
 ExitCode runEditor(const EditorOptions& options) {
+    // What a scene held goes back to the system when it is closed. By glibc's own rule the bound rises to 32 MiB, and
+    // the rest of a large scene stays: 1150 MiB instead of 850 with the courtyard open for the third time.
+    mallopt(M_MMAP_THRESHOLD, kOwnPages);
     Editor editor(options);
     return editor.run();
 }
