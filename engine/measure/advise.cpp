@@ -220,7 +220,8 @@ bool advise(Device& device, const Scene& scene, const RenderSettings& base, cons
     if (forecast->samples == 0)
         throw Error("nothing that was tried reaches a relative error of " + std::to_string(goal.relativeError) +
                     "; the least bias found is " + std::to_string(forecast->relativeBias) + ": ask for a larger error");
-    const std::optional<Forecast> standard = search.forecast(base);
+    const bool isAsBefore = std::ranges::all_of(advice.steps, [](const AdviceStep& s) { return s.chosen == s.held; });
+    const std::optional<Forecast> standard = isAsBefore ? forecast : search.forecast(base);
     if (!standard) return false;
     advice.settings.spp = forecast->samples;
     progress("verification");

@@ -6,8 +6,8 @@
 namespace raylab {
 namespace {
 
-/// A reference may have half of the error that is judged by it: its noise is known, and taken off.
-constexpr double kReferenceShare = 0.5;
+/// A reference may have the error that is judged by it: its noise is known, and taken off.
+constexpr double kReferenceShare = 1.0;
 constexpr double kReferenceErrorOfTime = 0.02;
 
 double referenceErrorOf(double asked, const AdviceGoal& goal) {
