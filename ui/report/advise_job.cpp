@@ -6,8 +6,9 @@
 namespace raylab {
 namespace {
 
-/// A reference may have the error that is judged by it: its noise is known, and taken off.
-constexpr double kReferenceShare = 1.0;
+/// A reference may have half of the error that is judged by it: its noise is known, and taken off. With as much error as
+/// is asked, a bright pixel of it counts as bias of everything that is measured by it (seen on `lights`).
+constexpr double kReferenceShare = 0.5;
 constexpr double kReferenceErrorOfTime = 0.02;
 
 double referenceErrorOf(double asked, const AdviceGoal& goal) {
