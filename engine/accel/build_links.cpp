@@ -82,7 +82,7 @@ public:
         const uint32_t left = tree_.node(top).left;
         const uint32_t right = tree_.node(top).right;
         if (!fitsBelow(std::max(unitsOf(left), unitsOf(right)), levels - 1)) {
-            Rebalance(tree_, top);
+            const Rebalance rebalanced(tree_, top);
             return;
         }
         apply(left, levels - 1);
