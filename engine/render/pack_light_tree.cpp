@@ -10,6 +10,8 @@
 namespace raylab {
 namespace {
 
+using std::numbers::pi;
+
 constexpr int kGridLast = 65535;
 /// Added to the angle of a cone: what rounding its axis to 2 x 16 bits can turn it by.
 constexpr double kAxisRounding = 1e-4;
@@ -22,7 +24,7 @@ LightBound boundOf(const shared::EmissiveData& triangle, double emitted, bool is
     const double twiceArea = glm::length(normal);
     bound.isTwoSided = isTwoSided;
     if (!(twiceArea > 0.0)) return bound;  // lost by rounding to floats
-    bound.cone = {normal * (static_cast<double>(triangle.frontSign) / twiceArea), 0.0, 0.5 * std::numbers::pi};
+    bound.cone = {normal * (static_cast<double>(triangle.frontSign) / twiceArea), 0.0, 0.5 * pi};
     bound.power = emitted * 0.5 * twiceArea;
     return bound;
 }
@@ -30,7 +32,7 @@ LightBound boundOf(const shared::EmissiveData& triangle, double emitted, bool is
 LightBound boundOfShape(const shared::PunctualData& light) {
     LightBound bound;
     bound.cone.axis = glm::dvec3(light.direction);
-    bound.cone.thetaE = 0.5 * std::numbers::pi;
+    bound.cone.thetaE = 0.5 * pi;
     if (light.kind == shared::kPunctualRectangle) {
         for (const glm::vec3 corner : {glm::vec3(0.0f), light.direction, light.shape, light.direction + light.shape})
             bound.box.grow(light.position + corner);
@@ -44,8 +46,8 @@ LightBound boundOfShape(const shared::PunctualData& light) {
     const glm::vec3 n = isSphere ? glm::vec3(0.0f) : light.direction;
     const glm::vec3 reach = radius * glm::sqrt(glm::max(1.0f - n * n, glm::vec3(0.0f)));
     bound.box = {light.position - reach, light.position + reach};
-    if (isSphere) bound.cone.thetaO = std::numbers::pi;
-    bound.power = luminance(light.intensity) * std::numbers::pi * static_cast<double>(radius) * static_cast<double>(radius);
+    if (isSphere) bound.cone.thetaO = pi;
+    bound.power = luminance(light.intensity) * pi * static_cast<double>(radius) * static_cast<double>(radius);
     return bound;
 }
 
@@ -56,7 +58,7 @@ LightBound boundOf(const shared::PunctualData& light) {
     bound.box.grow(light.position);
     bound.power = luminance(light.intensity);
     bound.cone.axis = glm::dvec3(light.direction);
-    bound.cone.thetaO = std::numbers::pi;
+    bound.cone.thetaO = pi;
     if (light.kind == shared::kPunctualSpot)
         bound.cone.thetaO = std::acos(std::clamp(-static_cast<double>(light.shape.y / light.shape.x), -1.0, 1.0));
     return bound;
@@ -100,7 +102,7 @@ shared::LightNodeData packNode(const LightNode& node, const LightGrid& grid) {
     data.hiYZ = grid.above(b.box.hi.y, 1) | grid.above(b.box.hi.z, 2) << 16;
     data.axis = encodeNormal(glm::vec3(b.cone.axis));
     data.power = static_cast<float>(b.power);
-    const double thetaO = std::min(b.cone.thetaO + kAxisRounding, std::numbers::pi);
+    const double thetaO = std::min(b.cone.thetaO + kAxisRounding, pi);
     data.cosines = snormBelow(std::cos(thetaO)) | snormBelow(std::cos(b.cone.thetaE)) << 16;
     data.reference = node.reference;
     data.flags = (node.isLeaf ? shared::kLightNodeLeaf : 0u) | (b.isTwoSided ? shared::kLightNodeTwoSided : 0u);

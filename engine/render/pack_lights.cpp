@@ -12,6 +12,8 @@
 namespace raylab {
 namespace {
 
+using std::numbers::pi;
+
 /// Part of the light samples that goes to the kinds of light evenly, whatever their estimated power: it bounds the
 /// variance where the estimate is wrong for a part of the scene.
 constexpr double kEvenShare = 0.2;
@@ -71,7 +73,7 @@ void appendEmissive(const Scene& scene, uint32_t instanceIndex, float weight, fl
         data.frontSign = mirrored ? -1.0f : 1.0f;
         lights.emissive.push_back(data);
         sum.weights.push_back(area * static_cast<double>(weight));
-        sum.flux += area * static_cast<double>(emitted) * std::numbers::pi * (scene.materials[mesh.material].doubleSided ? 2.0 : 1.0);
+        sum.flux += area * static_cast<double>(emitted) * pi * (scene.materials[mesh.material].doubleSided ? 2.0 : 1.0);
     }
 }
 
@@ -100,14 +102,14 @@ double punctualFlux(const Light& light, double sceneRadius) {
     switch (light.kind) {
         case LightKind::point:
         case LightKind::sphere:
-            return 4.0 * std::numbers::pi * intensity;
+            return 4.0 * pi * intensity;
         case LightKind::spot:
-            return 2.0 * std::numbers::pi * (1.0 - std::cos(light.outerConeRadians)) * intensity;
+            return 2.0 * pi * (1.0 - std::cos(light.outerConeRadians)) * intensity;
         case LightKind::disc:
         case LightKind::rectangle:
-            return std::numbers::pi * intensity;
+            return pi * intensity;
         case LightKind::directional:
-            return std::numbers::pi * sceneRadius * sceneRadius * intensity;
+            return pi * sceneRadius * sceneRadius * intensity;
     }
     return 0.0;
 }
@@ -195,7 +197,7 @@ void packEnvironment(const Scene& scene, LightTables& lights) {
     }
     std::vector<double> weights(map.pixelCount());
     for (int y = 0; y < map.height; ++y) {
-        const double sine = std::sin(std::numbers::pi * (y + 0.5) / map.height);
+        const double sine = std::sin(pi * (y + 0.5) / map.height);
         for (int x = 0; x < map.width; ++x) {
             const float* p = map.at(x, y);
             weights[static_cast<size_t>(y) * map.width + x] = sine * luminance(p);
@@ -222,7 +224,7 @@ void adoptEnvironment(const LightTables& known, LightTables& lights) {
 }
 
 double environmentFlux(const LightTables& lights, double sceneRadius) {
-    return std::numbers::pi * sceneRadius * sceneRadius * lights.environmentMean * 2.0 * std::numbers::pi * std::numbers::pi;
+    return pi * sceneRadius * sceneRadius * lights.environmentMean * 2.0 * pi * pi;
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ struct AdvicePanel {
 void drawSearched(EditorContext& context, AdvicePanel& p) {
     const std::vector<std::string> all = adviceSettings();
     const std::vector<std::string> searched = p.searched();
-    const std::string text = searched.size() == all.size() ? "all settings" : searched.size() == 1 ? searched.front() :
-                             std::to_string(searched.size()) + " settings";
+    const std::string text = searched.size() == all.size() ? "all settings"
+                             : searched.size() == 1        ? searched.front()
+                                                           : std::to_string(searched.size()) + " settings";
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color::kDim, "searching");
     ImGui::SameLine(120.0f * context.scale);
@@ -48,7 +49,11 @@ void drawSearched(EditorContext& context, AdvicePanel& p) {
         bool tried = !p.held.contains(name);
         // The last one stays: a search of nothing would be one of everything.
         ImGui::BeginDisabled(tried && searched.size() == 1);
-        if (ImGui::Checkbox(name.c_str(), &tried)) tried ? void(p.held.erase(name)) : void(p.held.insert(name));
+        ImGui::Checkbox(name.c_str(), &tried);
+        if (tried)
+            p.held.erase(name);
+        else
+            p.held.insert(name);
         notePlace(context, "advice-search-" + name);
         ImGui::EndDisabled();
     }
