@@ -1,5 +1,7 @@
 #include "engine/accel/build_binned.h"
 
+#include <algorithm>
+
 #include "engine/accel/binned_split.h"
 #include "engine/accel/build_topdown.h"
 

@@ -1,5 +1,6 @@
 #include "engine/accel/build_linear.h"
 
+#include <algorithm>
 #include <array>
 
 #include "engine/accel/build_binned.h"

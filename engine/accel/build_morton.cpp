@@ -1,5 +1,6 @@
 #include "engine/accel/build_morton.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "engine/accel/build_range.h"
 
+#include <algorithm>
 #include <string>
 
 #include "engine/core/error.h"

@@ -1,5 +1,7 @@
 #include "engine/accel/build_simple.h"
 
+#include <algorithm>
+
 #include "engine/accel/build_topdown.h"
 
 namespace raylab {

@@ -1,5 +1,6 @@
 #include "engine/accel/build_spatial.h"
 
+#include <algorithm>
 #include <string>
 
 #include "engine/accel/build_binned.h"

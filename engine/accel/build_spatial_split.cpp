@@ -1,5 +1,6 @@
 #include "engine/accel/build_spatial_split.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 

@@ -1,5 +1,7 @@
 #include "engine/accel/build_topdown.h"
 
+#include <algorithm>
+
 namespace raylab {
 namespace {
 

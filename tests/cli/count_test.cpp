@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/image/image_io.h"
 #include "tests/cli/program.h"
 

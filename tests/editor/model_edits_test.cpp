@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/scene/bounds.h"
 #include "engine/scene/f0_presets.h"
 #include "engine/scene/import.h"

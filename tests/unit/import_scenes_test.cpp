@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <sys/wait.h>
 
 #include "engine/scene/bounds.h"

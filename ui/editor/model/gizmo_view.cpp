@@ -1,5 +1,6 @@
 #include "ui/editor/model/gizmo_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace raylab::editor {
