@@ -3,6 +3,7 @@
 
 #include "engine/image/image_io.h"
 #include "tests/cli/program.h"
+#include "tests/support/trace_choice.h"
 
 namespace raylab {
 namespace {
@@ -35,7 +36,8 @@ protected:
 };
 
 TEST_F(DeviceLoss, LeavesAHardwareTracerForTheSoftwareTracer) {
-    for (const std::string tracer : {"query", "pipeline"}) {
+    for (const std::string tracer : {"pipeline", "query"}) {
+        RAYLAB_NEEDS_TRACER(tracer);
         expectSamePicture(tracer, "device-lost@render:3", 1);
         EXPECT_EQ(json("lost.json")["settings"]["tracer"], "software") << tracer;
         EXPECT_NE(text("err").find("software tracer takes over"), std::string::npos) << text("err");
@@ -43,6 +45,7 @@ TEST_F(DeviceLoss, LeavesAHardwareTracerForTheSoftwareTracer) {
 }
 
 TEST_F(DeviceLoss, OverTheBuildOfStructuresLeavesThemToo) {
+    RAYLAB_NEEDS_TRACER("query");
     expectSamePicture("query", "device-lost@acceleration structures:1", 1);
     EXPECT_EQ(json("lost.json")["settings"]["tracer"], "software");
 }
@@ -56,6 +59,7 @@ TEST_F(DeviceLoss, OnSoftwareTracersIsFollowedByShorterDispatches) {
 }
 
 TEST_F(DeviceLoss, TwiceInARowComesThroughFromAHardwareTracer) {
+    RAYLAB_NEEDS_TRACER("pipeline");
     expectSamePicture("pipeline", "device-lost@render:2,device-lost@render:2", 2);
     EXPECT_EQ(json("lost.json")["settings"]["slice-ms"], 25.0);
 }
@@ -83,6 +87,7 @@ TEST_F(DeviceLoss, ForGoodLeavesTheLastLookAtTheNoise) {
 }
 
 TEST_F(DeviceLoss, OfAMeasurementIsNoResult) {
+    RAYLAB_NEEDS_TRACER("query");
     const Simulated simulated("device-lost@rays:2");
     EXPECT_EQ(runProgram("compare-tracers cornell --a software --b query --rays 10000 --quiet"), 3) << text("err");
     EXPECT_NE(text("err").find("VK_ERROR_DEVICE_LOST"), std::string::npos) << text("err");
@@ -195,7 +200,8 @@ TEST_F(DeviceLoss, IsSimulatedByAClearTextOnly) {
 
 /// A build that runs out of memory, and whatever else is no loss, keeps the device.
 TEST_F(DeviceLoss, IsNotWhatAFailedBuildIs) {
-    for (const std::string tracer : {"query", "pipeline"}) {
+    for (const std::string tracer : {"pipeline", "query"}) {
+        RAYLAB_NEEDS_TRACER(tracer);
         expectSamePicture(tracer, "out-of-memory@acceleration structures:1", 0);
         EXPECT_NE(text("err").find("the software tracer takes over"), std::string::npos) << text("err");
     }

@@ -2,6 +2,7 @@
 
 #include "engine/image/image_io.h"
 #include "tests/editor/window.h"
+#include "tests/support/trace_choice.h"
 
 namespace raylab {
 namespace {
@@ -19,6 +20,7 @@ protected:
 const std::string kCornellToCompare = "cornell --depth 2 --spp 2 ";
 
 TEST_F(CompareWindowTest, ComparesEqualConfigurationsAndFindsNoDifference) {
+    RAYLAB_NEEDS_TRACER("query");
     EXPECT_EQ(runScript(kCornellToCompare,
                         "wait-idle\ncompare absolute\nwait-idle\nwait-until samples-b == 2\n"
                         "wait-until difference == 0\ncompare \"first hit\"\nwait-until difference == 0\n"

@@ -1,5 +1,6 @@
 #include "engine/image/image_io.h"
 #include "tests/editor/window.h"
+#include "tests/support/trace_choice.h"
 
 namespace raylab {
 namespace {
@@ -9,6 +10,8 @@ using support::WindowTest;
 const std::string kCornellToLose = "cornell --depth 3 --spp 2 ";
 
 TEST_F(WindowTest, GoesOnByTheSoftwareTracerAfterALossOfTheDevice) {
+    RAYLAB_NEEDS_TRACER("query");
+    RAYLAB_NEEDS_TRACER("pipeline");
     EXPECT_EQ(
         runScript(kCornellToLose + "--tracer query",
                   "wait-idle\nassert tracing == query\nset exposure 1\nset depth 2\n"

@@ -1,4 +1,5 @@
 #include "tests/editor/window.h"
+#include "tests/support/trace_choice.h"
 
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
@@ -39,6 +40,7 @@ TEST_F(WindowTest, ShowsAScene) {
 }
 
 TEST_F(WindowTest, FollowsKeysAndPointer) {
+    RAYLAB_NEEDS_TRACER("query");
     const std::string user =
         "xdotool windowfocus --sync $WINDOW\n"
         "while [ ! -e ready ]; do sleep .05; done\n"

@@ -54,6 +54,11 @@ std::vector<RenderSettings> hardwareTracers(const DeviceDescription& device) {
     return choices;
 }
 
+std::string missingByDefault(const std::string& tracer) {
+    static const DeviceDescription description = Device(DeviceOptions{}).description();
+    return missingForTracer(tracer, description);
+}
+
 RenderSettings bruteForce(RenderSettings settings) {
     settings.tracer = "brute";
     return settings;

@@ -27,6 +27,14 @@ std::vector<RenderSettings> everyTracer(const DeviceDescription& device);
 /// Those over the driver's structures alone.
 std::vector<RenderSettings> hardwareTracers(const DeviceDescription& device);
 
+/// What the default device, which programs under test take, lacks for a tracer; empty where it runs it.
+std::string missingByDefault(const std::string& tracer);
+
+/// Skips a test of the whole program where the default device lacks what a hardware tracer needs: not every GPU has ray
+/// query, and lavapipe has it from Mesa 24.1 on.
+#define RAYLAB_NEEDS_TRACER(tracer) \
+    if (const std::string missing = raylab::support::missingByDefault(tracer); !missing.empty()) GTEST_SKIP() << missing
+
 /// The settings with the tracer that walks no tree.
 RenderSettings bruteForce(RenderSettings settings);
 

@@ -6,7 +6,7 @@
 namespace raylab::importtest {
 namespace {
 
-Gltf gltfWith(const nlohmann::json& extensions, const nlohmann::json& extras = nlohmann::json::object()) {
+Gltf gltfWithLobes(const nlohmann::json& extensions, const nlohmann::json& extras = nlohmann::json::object()) {
     Gltf gltf;
     nlohmann::json primitive = gltf.trianglePrimitive();
     primitive["material"] = 0;
@@ -18,7 +18,7 @@ Gltf gltfWith(const nlohmann::json& extensions, const nlohmann::json& extras = n
 TEST(ImportGltfLobes, FactorsOfAllExtensions) {
     const ScratchFolder folder;
     const Gltf gltf =
-        gltfWith({{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.25}}},
+        gltfWithLobes({{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.25}}},
                   {"KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.25, 0.125}}, {"sheenRoughnessFactor", 0.375}}},
                   {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", -1.5}}},
                   {"KHR_materials_specular", {{"specularColorFactor", {1, 2, 0.5}}}},
@@ -44,7 +44,7 @@ TEST(ImportGltfLobes, FactorsOfAllExtensions) {
 TEST(ImportGltfLobes, TexturesOfAllExtensions) {
     const ScratchFolder folder;
     const auto at = [](int index) { return nlohmann::json{{"index", index}}; };
-    Gltf gltf = gltfWith(
+    Gltf gltf = gltfWithLobes(
         {{"KHR_materials_clearcoat",
           {{"clearcoatTexture", at(0)},
            {"clearcoatRoughnessTexture", at(1)},
@@ -86,9 +86,9 @@ TEST(ImportGltfLobes, TexturesOfAllExtensions) {
 
 TEST(ImportGltfLobes, RefusesWhatMakesNoSense) {
     const ScratchFolder folder;
-    const Gltf distance = gltfWith({{"KHR_materials_volume", {{"attenuationDistance", 0}}}});
+    const Gltf distance = gltfWithLobes({{"KHR_materials_volume", {{"attenuationDistance", 0}}}});
     EXPECT_THROW(importScene(distance.write(folder)), Error);
-    const Gltf priority = gltfWith(nlohmann::json::object(), {{"raylab", {{"priority", -1}}}});
+    const Gltf priority = gltfWithLobes(nlohmann::json::object(), {{"raylab", {{"priority", -1}}}});
     EXPECT_THROW(importScene(priority.write(folder)), Error);
 }
 
