@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "engine/core/error.h"
 #include "engine/measure/image_error.h"
+#include "engine/render/denoise.h"
 #include "engine/render/integrators.h"
+#include "engine/render/renderer.h"
 #include "engine/render/tracer.h"
 
 namespace raylab {
@@ -18,12 +22,23 @@ constexpr uint32_t kMostProbeSamples = 256;
 constexpr int kProbeSeeds = 4;
 /// That a step takes at most: a first look, and the probes.
 constexpr uint32_t kSeedsOfStep = 1 + kProbeSeeds;
+/// A candidate this many times slower than the held value after two seeds is measured no longer.
+constexpr double kHopeless = 3.0;
 /// A gain that is less is not worth an unusual setting.
 constexpr double kWorthwhile = 1.03;
 /// Samples of the second measurement of a forecast, over those it forecasts.
 constexpr double kCalibrationShare = 0.25;
 /// Noise falls with a power of the samples: independent ones have 1, well-distributed ones more on smooth pixels.
 constexpr double kLeastPower = 0.9, kMostPower = 1.5;
+
+/// What an adaptive rendering gains shows in some part of the samples that the goal takes, and in no fewer than these:
+/// its pilot is one of that many.
+constexpr double kAdaptiveShare = 0.125;
+constexpr uint32_t kLeastAdaptive = 16;
+/// A denoiser is looked at with twice the samples each time, up to these.
+constexpr uint32_t kMostDenoiseSamples = 1u << 20;
+constexpr const char* kAdaptive = "adaptive";
+constexpr const char* kDenoise = "denoise";
 
 struct Coordinate {
     const char* setting;
@@ -33,13 +48,15 @@ struct Coordinate {
 const std::vector<Coordinate>& coordinates() {
     static const std::vector<Coordinate> list = {
         {"depth", {"2", "4", "8", "16", "32"}}, {"integrator", {}}, {"light-choice", {}}, {"sampler", {}},
-        {"roulette-depth", {"1", "3", "8"}},    {"tracer", {}},     {"layout", {}},       {"builder", {}}};
+        {"roulette-depth", {"1", "3", "8"}},    {"tracer", {}},     {"layout", {}},       {"builder", {}},
+        {kAdaptive, {"off", "on"}}};
     return list;
 }
 
 bool isOffered(const std::string& setting, const std::string& value, const RenderSettings& held, const Device& device) {
     if (setting == "integrator") return !findIntegrator(value).isView;
     if (setting == "tracer") return value != "brute" && missingForTracer(value, device.description()).empty();
+    if (setting == kAdaptive) return held.sampler != "stratified";
     if (setting == "layout" || setting == "builder") return held.tracer == "software" && value != kAutoLayout;
     return true;
 }
@@ -53,6 +70,21 @@ std::vector<std::string> valuesOf(const Coordinate& coordinate, const RenderSett
         if (value != now && isOffered(coordinate.setting, value, held, device)) values.push_back(value);
     return values;
 }
+
+/// A rendering with so many samples, denoised: by one seed, or by all.
+struct DenoisedLevel {
+    double samples = 0.0;
+    double seconds = 0.0;
+    double error = 0.0;
+};
+
+/// Where the goal is reached with a denoiser.
+struct DenoisedForecast {
+    std::vector<DenoisedLevel> seeds;  ///< by each alone; none where it is not reached in time
+    DenoisedLevel all;
+    double relativeBias = 0.0;
+    double energy = 0.0;
+};
 
 /// The state of a search.
 class Search {
@@ -68,18 +100,32 @@ public:
 
     /// Of the values of a coordinate; false where it was stopped. `held` gets the chosen value, `steps` what was found.
     bool tryCoordinate(const Coordinate& coordinate, RenderSettings& held, std::vector<AdviceStep>& steps);
+    /// The denoisers, against what the held settings come to without one.
+    bool tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, Forecast& forecast);
     std::optional<Forecast> forecast(const RenderSettings& settings);
     std::optional<Achieved> run(const RenderSettings& settings);
 
 private:
     std::optional<std::vector<Probe>> measure(std::span<const RenderSettings> candidates, uint32_t samples, int seeds) {
-        const uint32_t seed = nextSeed_;
+        ProbePlan plan;
+        plan.samples = samples;
+        plan.seeds = seeds;
+        plan.firstSeed = nextSeed_;
+        plan.hopeless = kHopeless;
         nextSeed_ += static_cast<uint32_t>(seeds);
-        return probe(device_, scene_, candidates, reference_, {samples, seeds, seed}, stop_);
+        return probe(device_, scene_, candidates, reference_, plan, stop_);
     }
     uint32_t samplesFor(double sampleSeconds) const {
         return static_cast<uint32_t>(std::clamp(kProbeSeconds / sampleSeconds, 1.0, double{kMostProbeSamples}));
     }
+    uint32_t samplesOf(const Coordinate& coordinate) const {
+        const uint32_t usual = samplesFor(sampleSeconds_);
+        if (coordinate.setting != std::string_view(kAdaptive)) return usual;
+        const double share = std::min(kAdaptiveShare * wantedSamples_, double{kMostProbeSamples});
+        return std::max({usual, kLeastAdaptive, static_cast<uint32_t>(share)});
+    }
+    std::optional<Forecast> forecastBySamples(const RenderSettings& settings);
+    std::optional<DenoisedForecast> forecastDenoised(const RenderSettings& settings, double mostSeconds);
     /// The error that candidates are compared at.
     double errorFor(const Probe& held) const {
         return goal_.relativeError > 0.0 ? goal_.relativeError : held.errorAfter(goal_.seconds);
@@ -92,6 +138,7 @@ private:
     const std::function<bool()>& stop_;
     uint32_t nextSeed_;
     double sampleSeconds_ = 0.0;  ///< of the held settings
+    double wantedSamples_ = 0.0;  ///< that they take to the goal
 };
 
 /// Paired by seed: both saw the same random numbers on a machine of the same mood.
@@ -138,7 +185,7 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, s
         if (!first) return false;
         sampleSeconds_ = first->front().medianSampleSeconds();
     }
-    const auto probes = measure(candidates, samplesFor(sampleSeconds_), kProbeSeeds);
+    const auto probes = measure(candidates, samplesOf(coordinate), kProbeSeeds);
     if (!probes) return false;
     const double error = errorFor(probes->front());
     AdviceStep step{coordinate.setting, values.front(), values.front(), {}};
@@ -148,16 +195,18 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, s
     step.chosen = values[best];
     held = candidates[best];
     sampleSeconds_ = (*probes)[best].medianSampleSeconds();
+    wantedSamples_ = medianSeconds((*probes)[best], error) / sampleSeconds_;
     steps.push_back(std::move(step));
     return true;
 }
 
 /// From two numbers of samples: a short one, and one of some share of what is forecast.
-std::optional<Forecast> Search::forecast(const RenderSettings& settings) {
+std::optional<Forecast> Search::forecastBySamples(const RenderSettings& settings) {
     const std::vector<RenderSettings> one{settings};
-    const auto first = measure(one, 1, 1);
+    const uint32_t least = settings.adaptive ? kLeastAdaptive : 1;
+    const auto first = measure(one, least, 1);
     if (!first) return std::nullopt;
-    const uint32_t fewSamples = samplesFor(first->front().medianSampleSeconds());
+    const uint32_t fewSamples = std::max(least, samplesFor(first->front().medianSampleSeconds()));
     const auto few = measure(one, fewSamples, kProbeSeeds);
     if (!few) return std::nullopt;
     const Probe& low = few->front();
@@ -183,9 +232,97 @@ std::optional<Forecast> Search::forecast(const RenderSettings& settings) {
         if (aim <= bias) return Forecast{0, 0.0, 0.0, std::sqrt(bias)};
         samples = std::ceil(manySamples * std::pow(variance / (aim - bias), 1.0 / power));
     }
-    samples = std::clamp(samples, 1.0, 4e9);
+    samples = std::clamp(samples, static_cast<double>(leastSamples(settings)), 4e9);
     const double error = std::sqrt(bias + variance * std::pow(manySamples / samples, power));
     return Forecast{static_cast<uint32_t>(samples), samples * high.medianSampleSeconds(), error, std::sqrt(bias)};
+}
+
+DenoisedLevel levelOf(const Probe& probe) {
+    return {static_cast<double>(probe.samples), probe.medianSampleSeconds() * probe.samples, probe.rmsError()};
+}
+
+DenoisedLevel levelOf(const Probe& probe, size_t seed) {
+    return {static_cast<double>(probe.samples), probe.sampleSeconds[seed] * probe.samples,
+            std::sqrt(std::max(0.0, probe.squaredErrors[seed]))};
+}
+
+/// Between two levels: the time along a line, the error along a power of the samples. The higher one where the error
+/// asked is not between theirs.
+DenoisedLevel whereGoalIs(const AdviceGoal& goal, const DenoisedLevel& low, const DenoisedLevel& high) {
+    const double perSample = (high.seconds - low.seconds) / (high.samples - low.samples);
+    const double power = std::log(low.error / high.error) / std::log(high.samples / low.samples);
+    double samples = high.samples;
+    if (goal.relativeError == 0.0)
+        samples = low.samples + (goal.seconds - low.seconds) / perSample;
+    else if (low.error > goal.relativeError && high.error < goal.relativeError)
+        samples = low.samples * std::pow(low.error / goal.relativeError, 1.0 / power);
+    samples = std::clamp(std::ceil(samples), low.samples, high.samples);
+    return {samples, low.seconds + (samples - low.samples) * perSample,
+            low.error * std::pow(low.samples / samples, power)};
+}
+
+/// A denoiser's error falls neither as its samples' does nor as any power that is known, and its bias with it: measured
+/// with twice the samples each time, until the goal is passed or more than `mostSeconds` have gone.
+std::optional<DenoisedForecast> Search::forecastDenoised(const RenderSettings& settings, double mostSeconds) {
+    const std::vector<RenderSettings> one{settings};
+    std::optional<Probe> before;
+    DenoisedForecast found;
+    for (uint32_t samples = leastSamples(settings); samples <= kMostDenoiseSamples; samples *= 2) {
+        const auto probes = measure(one, samples, kProbeSeeds);
+        if (!probes) return std::nullopt;
+        const Probe& now = probes->front();
+        const DenoisedLevel level = levelOf(now);
+        found.relativeBias = std::sqrt(now.biasSquared());
+        found.energy = now.energy;
+        if (goal_.relativeError > 0.0 ? level.error <= goal_.relativeError : level.seconds > goal_.seconds) {
+            found.all = before ? whereGoalIs(goal_, levelOf(*before), level) : level;
+            for (size_t seed = 0; seed < now.sampleSeconds.size(); ++seed)
+                found.seeds.push_back(before ? whereGoalIs(goal_, levelOf(*before, seed), levelOf(now, seed))
+                                             : levelOf(now, seed));
+            break;
+        }
+        if (level.seconds > mostSeconds) break;
+        before = now;
+    }
+    return found;
+}
+
+Forecast forecastOf(const DenoisedForecast& found) {
+    return {static_cast<uint32_t>(found.all.samples), found.all.seconds, found.all.error, found.relativeBias};
+}
+
+std::optional<Forecast> Search::forecast(const RenderSettings& settings) {
+    if (settings.denoise == kNoDenoiser) return forecastBySamples(settings);
+    const auto found = forecastDenoised(settings, std::numeric_limits<double>::infinity());
+    if (!found) return std::nullopt;
+    return forecastOf(*found);
+}
+
+bool Search::tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, Forecast& forecast) {
+    const Forecast plain = forecast;
+    AdviceStep step{kDenoise, held.denoise, held.denoise, {{held.denoise, {1.0, 1.0, 1.0}, plain.relativeBias, 1.0}}};
+    for (const std::string& name : denoiserNames()) {
+        if (name == step.held) continue;
+        RenderSettings candidate = held;
+        candidate.denoise = name;
+        const auto found = forecastDenoised(candidate, plain.seconds);
+        if (!found) return false;
+        // At equal time the samples' noise would take the square of its ratio longer to fall as far.
+        std::vector<double> gains;
+        for (const DenoisedLevel& level : found->seeds)
+            gains.push_back(goal_.relativeError > 0.0 ? plain.seconds / level.seconds
+                                                      : std::pow(plain.relativeError / level.error, 2.0));
+        AdviceOption option{name, {0.0, 0.0, 0.0}, found->relativeBias, found->energy};
+        if (!gains.empty()) option.gain = geometricInterval(gains);
+        if (option.gain.low > 1.0 && option.gain.value > kWorthwhile) {
+            step.chosen = name;
+            forecast = forecastOf(*found);
+        }
+        step.options.push_back(std::move(option));
+    }
+    held.denoise = step.chosen;
+    steps.push_back(std::move(step));
+    return true;
 }
 
 std::optional<Achieved> Search::run(const RenderSettings& settings) {
@@ -201,26 +338,42 @@ std::optional<Achieved> Search::run(const RenderSettings& settings) {
 std::vector<std::string> adviceSettings() {
     std::vector<std::string> names;
     for (const Coordinate& coordinate : coordinates()) names.emplace_back(coordinate.setting);
+    names.emplace_back(kDenoise);
     return names;
 }
 
 bool advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
             const AdviceGoal& goal, const std::function<bool()>& stop, const AdviceProgress& progress, Advice& advice) {
     Search search(device, scene, reference, goal, stop, advice.steps.size());
+    const auto isSearched = [&](std::string_view setting) {
+        return goal.only.empty() || std::ranges::count(goal.only, setting) > 0;
+    };
+    const auto isDone = [&](std::string_view setting) {
+        return std::ranges::count(advice.steps, setting, &AdviceStep::setting) > 0;
+    };
     if (advice.steps.empty()) advice.settings = base;
+    RenderSettings& settings = advice.settings;
+    // The others are compared by their noise, which a denoiser hides.
+    const bool triesDenoisers = isSearched(kDenoise) && !isDone(kDenoise);
+    if (!isDone(kDenoise)) settings.denoise = kNoDenoiser;
     for (const Coordinate& coordinate : coordinates()) {
-        if (!goal.only.empty() && std::ranges::count(goal.only, coordinate.setting) == 0) continue;
-        if (std::ranges::count(advice.steps, coordinate.setting, &AdviceStep::setting) > 0) continue;
+        if (!isSearched(coordinate.setting) || isDone(coordinate.setting)) continue;
         progress(coordinate.setting);
-        if (!search.tryCoordinate(coordinate, advice.settings, advice.steps)) return false;
+        if (!search.tryCoordinate(coordinate, settings, advice.steps)) return false;
     }
+    if (!isSearched(kDenoise)) settings.denoise = base.denoise;
     progress("forecast");
-    const std::optional<Forecast> forecast = search.forecast(advice.settings);
+    std::optional<Forecast> forecast = search.forecast(settings);
     if (!forecast) return false;
     if (forecast->samples == 0)
         throw Error("nothing that was tried reaches a relative error of " + std::to_string(goal.relativeError) +
                     "; the least bias found is " + std::to_string(forecast->relativeBias) + ": ask for a larger error");
-    const bool isAsBefore = std::ranges::all_of(advice.steps, [](const AdviceStep& s) { return s.chosen == s.held; });
+    if (triesDenoisers) {
+        progress(kDenoise);
+        if (!search.tryDenoisers(settings, advice.steps, *forecast)) return false;
+    }
+    const bool isAsBefore = base.denoise == settings.denoise &&
+                            std::ranges::all_of(advice.steps, [](const AdviceStep& s) { return s.chosen == s.held; });
     const std::optional<Forecast> standard = isAsBefore ? forecast : search.forecast(base);
     if (!standard) return false;
     advice.settings.spp = forecast->samples;

@@ -37,7 +37,7 @@ struct AdviceStep {
     std::vector<AdviceOption> options;  ///< the held value is the first
 };
 
-/// What a configuration will take, by measurements at two numbers of samples.
+/// What a configuration will take, by measurements at two numbers of samples, or more where it is denoised.
 struct Forecast {
     uint32_t samples = 0;
     double seconds = 0.0;  ///< of the device, for rendering
@@ -63,8 +63,9 @@ struct Advice {
 using AdviceProgress = std::function<void(const std::string& what)>;
 
 /// Finds the settings that reach the goal soonest on this scene and device by coordinate search: depth, integrator,
-/// choice of lights, sampler, roulette, tracer, layout and builder in turn, each value measured beside the one that is
-/// held. Then forecasts, and runs once to see whether that was right. `advice` follows each step, and a search goes on
+/// choice of lights, sampler, roulette, tracer, layout, builder and adaptive samples in turn, each value measured beside
+/// the one that is held, without a denoiser. Then forecasts, tries the denoisers against that, and runs once to see
+/// whether it was right. `advice` follows each step, and a search goes on
 /// from the steps that it holds: after a loss of the device, on another one. False where `stop` says so. Throws Error
 /// where nothing that was tried reaches the error. `base` must be resolved for the device; the scene's environment must
 /// not be settled.

@@ -125,6 +125,7 @@ Renderer& ChartRun::rendererOf(size_t config, const std::function<bool()>& stop)
     renderers_[config] = std::make_unique<Renderer>(device_, settled, settings);
     setupTimes_[config] = renderers_[config]->times();
     render(*renderers_[config], plan_.firstSeed, samplesOfLevel(0), std::numeric_limits<double>::infinity(), stop);
+    renderers_[config]->develop(stop);  // a denoiser's kernels are made now
     return *renderers_[config];
 }
 
@@ -135,7 +136,8 @@ std::optional<ChartShot> ChartRun::next(const std::function<bool()>& stop) {
                                                    : std::numeric_limits<double>::infinity();
         const uint32_t seed = seedOfPoint(plan_, place->level, place->repeat);
         if (!stop() && render(renderer, seed, samplesOfLevel(place->level), share, stop)) {
-            Bitmap image = renderer.snapshot().mean;
+            Bitmap image = renderer.develop(stop).picture();
+            if (stop()) return std::nullopt;
             addPoint(*place, renderer, image);
             return ChartShot{place->config, place->level, place->repeat, std::move(image)};
         }
@@ -152,8 +154,8 @@ void ChartRun::addPoint(const Place& place, Renderer& renderer, const Bitmap& im
     table_.points.push_back({.config = config.name,
                              .seed = seedOfPoint(plan_, place.level, place.repeat),
                              .samples = samplesOfLevel(place.level),
-                             .deviceSeconds = renderer.times().device,
-                             .wallSeconds = renderer.times().render,
+                             .deviceSeconds = renderer.times().device + renderer.times().denoiseDevice,
+                             .wallSeconds = renderer.times().render + renderer.times().denoise,
                              .rmse = error.rmse,
                              .relMse = error.relMse,
                              .flip = flipOf(image, reference, config.settings)});

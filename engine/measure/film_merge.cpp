@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/measure/image_pair.h"
 #include "engine/measure/setting_effects.h"
+#include "engine/render/render_settings.h"
 
 namespace raylab {
 namespace {
@@ -123,15 +124,18 @@ void poolPixels(std::span<const FilmPart> parts, FilmPart& result) {
 FilmPart readFilmPart(const std::string& path) {
     FilmPart part;
     part.name = path;
-    const auto layer = [&, layers = readExrLayers(path, &part.metadata)](std::string_view name, int channels) {
+    const std::vector<Layer> layers = readExrLayers(path, &part.metadata);
+    const auto layer = [&](std::string_view name, int channels) {
         const auto found = std::ranges::find(layers, name, &Layer::name);
         if (found == layers.end() || found->bitmap.channels != channels)
             throw Error(path + ": has no layer '" + std::string(name.empty() ? "RGB" : name) + "' of " +
                         std::to_string(channels) + " channels; only EXR files that raylab render writes can be merged");
         return found->bitmap;
     };
-    part.mean = layer("", 3);
-    part.variance = layer("variance", 3);
+    const bool isDenoised = std::ranges::count(layers, "raw", &Layer::name) > 0;
+    part.mean = layer(isDenoised ? "raw" : "", 3);
+    part.variance = layer(isDenoised ? "raw-variance" : "variance", 3);
+    if (isDenoised) setValue(part.metadata, "denoise", kNoDenoiser);
     part.samples = layer("samples", 1);
     return part;
 }

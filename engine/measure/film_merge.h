@@ -18,7 +18,8 @@ struct FilmPart {
     Metadata metadata;
 };
 
-/// Throws Error, naming the file, where it is no EXR with the layers variance and samples.
+/// Of a denoised one, the film before. Throws Error, naming the file, where it is no EXR with the layers variance and
+/// samples.
 FilmPart readFilmPart(const std::string& path);
 
 /// The film of all samples: means and variances are pooled pairwise without cancellation (Chan, Golub, LeVeque,

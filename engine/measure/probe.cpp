@@ -23,9 +23,13 @@ double meanOfPixels(const Bitmap& bitmap) {
     return std::accumulate(bitmap.pixels.begin(), bitmap.pixels.end(), 0.0) / static_cast<double>(bitmap.pixels.size());
 }
 
+double meanOfSeeds(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 /// A candidate while it is measured.
 struct Subject {
-    std::unique_ptr<Renderer> renderer;
+    std::unique_ptr<Renderer> renderer;  ///< none any more where there is no hope
     SeedImages images{1, 1, 1};
     Probe probe;
 };
@@ -38,7 +42,7 @@ bool renderAll(Renderer& renderer, uint32_t seed, uint32_t samples, const std::f
 }
 
 Subject makeSubject(Device& device, Scene scene, RenderSettings settings, const Bitmap& reference) {
-    settings.spp = 1;
+    settings.spp = leastSamples(settings);
     settleEnvironment(scene, settings);
     Subject subject{std::make_unique<Renderer>(device, scene, settings),
                     SeedImages(reference.width, reference.height, reference.channels),
@@ -47,17 +51,24 @@ Subject makeSubject(Device& device, Scene scene, RenderSettings settings, const 
     return subject;
 }
 
+/// Whether all seeds so far say that the candidate takes `factor` times as long as the first one to the same noise.
+bool isHopeless(const Probe& first, const Probe& candidate, double factor) {
+    for (size_t seed = 0; seed < candidate.sampleSeconds.size(); ++seed)
+        if (candidate.squaredErrors[seed] * candidate.sampleSeconds[seed] <=
+            factor * std::max(0.0, first.squaredErrors[seed]) * first.sampleSeconds[seed])
+            return false;
+    return true;
+}
+
 }  // namespace
 
 double Probe::biasSquared() const {
     return bias.biasSquared > kClearBias * bias.standardError ? bias.biasSquared : 0.0;
 }
 
-double Probe::sampleVariance() const {
-    const double mean =
-        std::accumulate(squaredErrors.begin(), squaredErrors.end(), 0.0) / static_cast<double>(squaredErrors.size());
-    return std::max(0.0, mean - biasSquared()) * samples;
-}
+double Probe::rmsError() const { return std::sqrt(std::max(0.0, meanOfSeeds(squaredErrors))); }
+
+double Probe::sampleVariance() const { return std::max(0.0, meanOfSeeds(squaredErrors) - biasSquared()) * samples; }
 
 double Probe::medianSampleSeconds() const { return medianOf(sampleSeconds); }
 
@@ -81,18 +92,26 @@ std::optional<std::vector<Probe>> probe(Device& device, const Scene& scene, std:
     std::vector<Subject> subjects;
     for (const RenderSettings& settings : candidates) {
         subjects.push_back(makeSubject(device, scene, settings, reference.image.mean));
-        if (!renderAll(*subjects.back().renderer, plan.firstSeed, 1, stop)) return std::nullopt;
+        if (!renderAll(*subjects.back().renderer, plan.firstSeed, leastSamples(settings), stop)) return std::nullopt;
+        subjects.back().renderer->develop(stop);  // a denoiser's kernels are made now
     }
-    for (int seed = 0; seed < plan.seeds; ++seed)
+    for (int seed = 0; seed < plan.seeds; ++seed) {
+        if (seed == plan.seedsToHope)
+            for (size_t i = 1; i < subjects.size(); ++i)
+                if (isHopeless(subjects[0].probe, subjects[i].probe, plan.hopeless)) subjects[i].renderer.reset();
         for (size_t i = 0; i < subjects.size(); ++i) {
             Subject& subject = subjects[seed % 2 == 0 ? i : subjects.size() - 1 - i];
+            if (!subject.renderer) continue;
             if (!renderAll(*subject.renderer, plan.firstSeed + static_cast<uint32_t>(seed), plan.samples, stop))
                 return std::nullopt;
-            const Bitmap image = subject.renderer->snapshot().mean;
+            const Bitmap image = subject.renderer->develop(stop).picture();
+            if (stop()) return std::nullopt;
             subject.images.add(image);
-            subject.probe.sampleSeconds.push_back(subject.renderer->times().device / plan.samples);
+            const RenderTimes& times = subject.renderer->times();
+            subject.probe.sampleSeconds.push_back((times.device + times.denoiseDevice) / plan.samples);
             subject.probe.squaredErrors.push_back(compareImages(image, reference.image.mean).relMse - noise);
         }
+    }
     std::vector<Probe> probes;
     for (Subject& subject : subjects) {
         subject.probe.samples = plan.samples;

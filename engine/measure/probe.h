@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ struct Probe {
 
     /// Unbiased estimate of the squared bias, or 0 where chance would explain it (two standard errors).
     double biasSquared() const;
+    /// Root of the mean over the seeds of the squared error, bias included.
+    double rmsError() const;
     /// Mean over the seeds of the squared error without bias, for one sample a pixel.
     double sampleVariance() const;
     double medianSampleSeconds() const;
@@ -39,10 +42,14 @@ struct ProbePlan {
     uint32_t samples = 1;
     int seeds = 4;
     uint32_t firstSeed = 0;
+    /// Seeds after which a candidate is measured no longer where its squared error times its time has been more than
+    /// `hopeless` times the first candidate's each time; then its figures are of these seeds.
+    int seedsToHope = 2;
+    double hopeless = std::numeric_limits<double>::infinity();
 };
 
-/// Renders all candidates seed by seed, in turn, so that a drifting machine favours none; a first rendering of one
-/// sample of each is not counted. Nothing where `stop`, asked between dispatches, says so. The scene's environment must
+/// Renders all candidates seed by seed, in turn, so that a drifting machine favours none; a first rendering of
+/// leastSamples() of each is not counted. Nothing where `stop`, asked between dispatches, says so. The scene's environment must
 /// not be settled.
 std::optional<std::vector<Probe>> probe(Device& device, const Scene& scene, std::span<const RenderSettings> candidates,
                                         const Reference& reference, const ProbePlan& plan,

@@ -16,8 +16,8 @@ inline constexpr std::array<std::string_view, 24> kSpeedSettings = {
     "validation",     "schedule",    "queue-order",    "queue-paths"};
 
 /// Settings that change the noise of a picture, but not what it converges to.
-inline constexpr std::array<std::string_view, 7> kNoiseSettings = {
-    "spp", "seed", "roulette-depth", "throughput-end", "sampler", "light-choice", "adaptive"};
+inline constexpr std::array<std::string_view, 8> kNoiseSettings = {
+    "spp", "seed", "roulette-depth", "throughput-end", "sampler", "light-choice", "adaptive", "denoise"};
 
 inline bool isSpeedSetting(std::string_view name) {
     return std::ranges::find(kSpeedSettings, name) != kSpeedSettings.end();

@@ -46,9 +46,15 @@ FilmImage Film::read(Device& device) const {
     return developFilm(pixels, width_, height_);
 }
 
+std::vector<Layer> filmLayers(const FilmImage& film) {
+    if (film.denoised.pixels.empty())
+        return {{"", film.mean}, {"variance", film.variance}, {"samples", film.samples}};
+    return {{"", film.denoised}, {"raw", film.mean}, {"raw-variance", film.variance}, {"samples", film.samples}};
+}
+
 FilmImage developFilm(const std::vector<shared::FilmPixel>& pixels, uint32_t width, uint32_t height) {
     const auto w = static_cast<int>(width), h = static_cast<int>(height);
-    FilmImage image{Bitmap(w, h, 3), Bitmap(w, h, 3), Bitmap(w, h, 1)};
+    FilmImage image{.mean = Bitmap(w, h, 3), .variance = Bitmap(w, h, 3), .samples = Bitmap(w, h, 1)};
     double squaredError = 0.0, kept = 0.0, clamped = 0.0;
     for (size_t i = 0; i < pixels.size(); ++i) {
         const shared::FilmPixel& p = pixels[i];

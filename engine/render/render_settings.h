@@ -11,6 +11,7 @@
 namespace raylab {
 
 /// The layout that resolveForDevice() replaces by what is best on a device, and what it is where nothing is recorded.
+constexpr const char* kNoDenoiser = "none";
 constexpr std::string_view kAutoLayout = "auto";
 constexpr std::string_view kDefaultLayout = "bvh4b";
 
@@ -66,6 +67,7 @@ struct RenderSettings {
     double focusDistance = 0.0;
     double clamp = 0.0;
     std::string lightChoice = "auto";
+    std::string denoise = kNoDenoiser;
     double timeLimit = 0.0;
     double targetError = 0.0;
     bool adaptive = false;

@@ -34,9 +34,8 @@ uint32_t pilotSamples(const RenderSettings& settings) {
     if (!settings.adaptive) return 0;
     if (settings.sampler == "stratified")
         throw Error("--adaptive wants another --sampler: stratified gives all pixels the same number of samples");
-    if (settings.spp < 2 * kLeastPilot)
-        throw Error("--adaptive wants --spp " + std::to_string(2 * kLeastPilot) +
-                    " at least: some find out where the noise is");
+    if (const uint32_t least = leastSamples(settings); settings.spp < least)
+        throw Error("--adaptive wants --spp " + std::to_string(least) + " at least: some find out where the noise is");
     return static_cast<uint32_t>(std::clamp(settings.spp / kPilotShare, kLeastPilot, kMostPilot));
 }
 
@@ -69,6 +68,10 @@ bool covers(const std::vector<SpecConstant>& made, const std::vector<SpecConstan
 }
 
 }  // namespace
+
+uint32_t leastSamples(const RenderSettings& settings) {
+    return settings.adaptive ? static_cast<uint32_t>(2 * kLeastPilot) : 1;
+}
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings)
     : Renderer(device, std::make_shared<PreparedScene>(prepareScene(device, scene, settings)), settings) {}
@@ -109,7 +112,10 @@ void Renderer::begin() {
     pixelSamples_ = 0.0;
     times_.render = 0.0;
     times_.device = 0.0;
+    times_.denoise = 0.0;
+    times_.denoiseDevice = 0.0;
     times_.longestDispatch = 0.0;
+    if (denoiser_) denoiser_->forgetGuides();
 }
 
 /// The layout of the kernels by the settings' schedule, and the buffers of a wavefront, where those at hand are others.
@@ -280,6 +286,19 @@ bool Renderer::step() {
         chooseSampleCount();
     }
     return passFirst_ < static_cast<uint64_t>(settings_.spp);
+}
+
+FilmImage Renderer::develop(const std::function<bool()>& stop) {
+    FilmImage image = snapshot();
+    times_.denoise = 0.0;
+    times_.denoiseDevice = 0.0;
+    if (settings_.denoise == kNoDenoiser || findIntegrator(settings_.integrator).isView) return image;
+    const Stopwatch watch;
+    if (!denoiser_) denoiser_ = std::make_unique<PictureDenoiser>(device_);
+    if (auto picture = denoiser_->filter(image, prepared_, settings_, stop)) image.denoised = std::move(*picture);
+    times_.denoise = watch.seconds();
+    times_.denoiseDevice = denoiser_->deviceSeconds();
+    return image;
 }
 
 double Renderer::fractionDone() const {

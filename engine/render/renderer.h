@@ -4,6 +4,7 @@
 
 #include "engine/render/film.h"
 #include "engine/render/integrators.h"
+#include "engine/render/picture_denoiser.h"
 #include "engine/render/prepared_scene.h"
 #include "engine/render/wavefront.h"
 
@@ -16,8 +17,13 @@ struct RenderTimes {
     double compile = 0.0;
     double render = 0.0;
     double device = 0.0;
+    double denoise = 0.0;        ///< wall time of the last develop(), beyond reading the film
+    double denoiseDevice = 0.0;  ///< the device's own of it
     double longestDispatch = 0.0;
 };
+
+/// A pixel, that a rendering has to have: an adaptive one looks first where the noise is.
+uint32_t leastSamples(const RenderSettings& settings);
 
 /// Renders progressively: each step is one dispatch of about settings.sliceMs, so that nothing waits long for an answer.
 /// Adaptive: after a pilot, whose samples are thrown away, every block of pixels gets samples at a rate of its own
@@ -39,6 +45,8 @@ public:
     /// Goes on to another number of samples. They are those that a rendering of so many has from the start unless the
     /// sampler is stratified.
     void setSampleGoal(int64_t spp) { settings_.spp = spp; }
+    /// Of the pictures from now on: of denoiserNames().
+    void setDenoiser(const std::string& name) { settings_.denoise = name; }
 
     /// One dispatch. False when all samples are done.
     bool step();
@@ -55,6 +63,9 @@ public:
     uint64_t pixelSamples() const { return static_cast<uint64_t>(pixelSamples_); }
 
     FilmImage snapshot() { return film_.read(device_); }
+    /// The same, and denoised where the settings ask for it and the integrator shows no view; not so where `stop`, asked
+    /// between dispatches, says to leave off.
+    FilmImage develop(const std::function<bool()>& stop = [] { return false; });
     const RenderTimes& times() const { return times_; }
     const PreparedScene& prepared() const { return *prepared_; }
     float sceneDiagonal() const { return frame_.sceneDiagonal; }
@@ -87,6 +98,7 @@ private:
     Kernel kernel_;  ///< none under a wavefront, which has its own
     std::unique_ptr<Wavefront> wavefront_;
     std::vector<SpecConstant> kernelConstants_;  ///< that the kernels were made with; empty: they are still to be made
+    std::unique_ptr<PictureDenoiser> denoiser_;  ///< made when it is first asked for
     uint32_t blockCount_ = 0;   ///< of the image
     uint32_t nextBlock_ = 0;    ///< of the pass that is under way
     uint32_t passFirst_ = 0;    ///< first sample of it

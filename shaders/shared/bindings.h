@@ -38,6 +38,9 @@ RAYLAB_CONST uint kBindLobeTextures = 28;    // texel buffer, uvec4: three a mat
 RAYLAB_CONST uint kBindMotion = 29;          // texel buffer, uvec4: three an instance (MotionData)
 RAYLAB_CONST uint kBindPaths = 30;           // storage buffer, uvec4: states of paths (shared/wavefront.h): only in the wavefront's kernels
 RAYLAB_CONST uint kBindQueues = 31;          // storage buffer, uint: their queues
+RAYLAB_CONST uint kBindDenoiseLight = 32;    // texel buffer, vec4: light over colour, variance of its luminance: only in the denoiser
+RAYLAB_CONST uint kBindDenoiseGuides = 33;   // texel buffer, vec4: normal and depth of the first hits
+RAYLAB_CONST uint kBindDenoiseResult = 34;   // storage buffer, vec4: as the light
 
 RAYLAB_CONST uint kTileSize = 8;                            // a workgroup renders a tile of 8 x 8 pixels
 RAYLAB_CONST uint kWorkgroupSize = kTileSize * kTileSize;

@@ -3,6 +3,7 @@
 // Reads one of every struct that C++ and GLSL share, by the kernels' own loads where there are any, and writes its scalars
 // in the order of their declaration. tests/unit/gpu_layout_test.cpp says what they must be.
 #include "lib/light_tree.glsl"
+#include "shared/denoise.h"
 #include "shared/wavefront.h"
 
 layout(local_size_x = 1) in;
@@ -23,6 +24,7 @@ layout(set = 0, binding = 45, std430) readonly buffer TextureBlock { TextureData
 layout(set = 0, binding = 46, std430) readonly buffer EmissiveBlock { EmissiveData emissive; };
 layout(set = 0, binding = 47, std430) readonly buffer PunctualBlock { PunctualData punctual; };
 layout(set = 0, binding = 51, std430) readonly buffer WavefrontPushBlock { WavefrontPush wavefrontPush; };
+layout(set = 0, binding = 53, std430) readonly buffer DenoisePushBlock { DenoisePush denoisePush; };
 layout(set = 0, binding = 48, std430) writeonly buffer ResultBlock { uint result[]; };
 
 uint next = 0u;
@@ -291,6 +293,15 @@ void emitWavefront() {
     emit(wavefrontPush.pathsPerLane);
 }
 
+void emitDenoise() {
+    emit(denoisePush.width);
+    emit(denoisePush.height);
+    emit(denoisePush.firstPixel);
+    emit(denoisePush.pixelCount);
+    emit(denoisePush.task);
+    emit(denoisePush.spacing);
+}
+
 void main() {
     emitFrame();
     emitBuffers();
@@ -299,4 +310,5 @@ void main() {
     emitMaterials();
     emitLights();
     emitWavefront();
+    emitDenoise();
 }

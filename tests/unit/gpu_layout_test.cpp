@@ -4,6 +4,7 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/pipeline.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/denoise.h"
 #include "shaders/shared/scene.h"
 #include "shaders/shared/wavefront.h"
 #include "tests/support/gpu_test.h"
@@ -63,6 +64,7 @@ struct Structs {
     std::array<shared::LightNodeData, 2> lightNodes{};
     shared::PunctualData punctual;
     shared::WavefrontPush wavefrontPush;
+    shared::DenoisePush denoisePush;
 };
 
 void numberFrame(Numbering& n, shared::FrameParams& f) {
@@ -128,6 +130,10 @@ void numberWavefront(Numbering& n, shared::WavefrontPush& p) {
     n.assign(p.slice.laneCount, p.capacity, p.lanes, p.cellOrigin, p.round, p.cellScale, p.pathsPerLane);
 }
 
+void numberDenoise(Numbering& n, shared::DenoisePush& p) {
+    n.assign(p.width, p.height, p.firstPixel, p.pixelCount, p.task, p.spacing);
+}
+
 std::vector<uint32_t> numberAll(Structs& s) {
     Numbering numbering;
     numberFrame(numbering, s.frame);
@@ -137,6 +143,7 @@ std::vector<uint32_t> numberAll(Structs& s) {
     numberMaterials(numbering, s.materials[1], s.lobes[1], s.lobeTextures[1], s.phong[1], s.texture);
     numberLights(numbering, s.emissive, s.lightNodes[1], s.punctual);
     numberWavefront(numbering, s.wavefrontPush);
+    numberDenoise(numbering, s.denoisePush);
     return numbering.bits();
 }
 
@@ -204,6 +211,7 @@ TEST_F(Layout, EveryFieldIsWhereBothLanguagesExpectIt) {
     inputs.buffer(50, s.quadric);
     inputs.buffer(51, s.wavefrontPush);
     inputs.buffer(52, s.motion);
+    inputs.buffer(53, s.denoisePush);
     inputs.buffer(48, result);
     inputs.texels(shared::kBindInstances, s.instances);
     inputs.texels(shared::kBindMotion, s.still);

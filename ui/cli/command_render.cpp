@@ -40,7 +40,7 @@ nlohmann::ordered_json samplesJson(const Bitmap& samples) {
 nlohmann::ordered_json resultJson(const RenderOptions& options, const RenderSettings& settings,
                                   ReplaceableDevice& device, const RenderResult& r) {
     nlohmann::ordered_json seconds{{"import", r.importSeconds},    {"build", r.times.build},   {"upload", r.times.upload},
-                                   {"compile", r.times.compile},   {"render", r.times.render}, {"total", r.totalSeconds},
+                                   {"compile", r.times.compile},   {"render", r.times.render}, {"denoise", r.times.denoise}, {"total", r.totalSeconds},
                                    {"device", r.times.device},     {"longestDispatch", r.times.longestDispatch}};
     return {{"schema", "raylab.render/1"},
             {"version", RAYLAB_VERSION},
@@ -80,8 +80,13 @@ std::string summary(const RenderOptions& options, const RenderSettings& settings
                   options.output.c_str(), r.samples, r.totalSeconds, r.importSeconds, r.times.build, r.times.upload,
                   r.times.compile, r.times.render, raysPerSecond(r) * 1e-6);
     std::string line = text;
+    if (r.times.denoise > 0.0) {
+        std::snprintf(text, sizeof(text), "  denoised in %.2f s", r.times.denoise);
+        line += text;
+    }
     if (r.samples >= 2) {
-        std::snprintf(text, sizeof(text), "  noise %.2f%%", 100.0 * r.image.estimatedRelativeError);
+        std::snprintf(text, sizeof(text), r.times.denoise > 0.0 ? ", noise before %.2f%%" : "  noise %.2f%%",
+                      100.0 * r.image.estimatedRelativeError);
         line += text;
     }
     if (settings.clamp > 0.0) {

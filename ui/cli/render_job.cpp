@@ -1,7 +1,6 @@
 #include "ui/cli/render_job.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "engine/core/error.h"
@@ -18,9 +17,9 @@ namespace {
 constexpr double kNoiseInterval = 1.0;
 constexpr double kNoiseShare = 0.05;
 
-RenderResult resultOf(Renderer& renderer) {
+RenderResult resultOf(const Renderer& renderer, FilmImage image) {
     RenderResult result;
-    result.image = renderer.snapshot();
+    result.image = std::move(image);
     result.times = renderer.times();
     result.samples = renderer.completeSamples();
     result.pixelSamples = renderer.pixelSamples();
@@ -39,7 +38,7 @@ public:
     double update(Renderer& renderer, const Stopwatch& rendering) {
         if (renderer.completeSamples() < 2 || rendering.seconds() < next_) return noise_;
         Stopwatch watch;
-        last_ = resultOf(renderer);
+        last_ = resultOf(renderer, renderer.snapshot());
         noise_ = last_->image.estimatedRelativeError;
         next_ = rendering.seconds() + std::max(kNoiseInterval, watch.seconds() / kNoiseShare);
         return noise_;
@@ -74,14 +73,17 @@ RenderResult renderOnce(Device& device, const Scene& scene, const RenderSettings
                         std::optional<RenderResult>& last) {
     Renderer renderer(device, scene, settings);
     const std::string stoppedBy = renderLoop(renderer, settings, quiet, last);
-    RenderResult result = resultOf(renderer);
+    // Who has asked for an end, or asks for it now, gets the picture as it is.
+    const InterruptGuard guard;
+    FilmImage image = stoppedBy == "interrupt" ? renderer.snapshot() : renderer.develop(InterruptGuard::isInterrupted);
+    RenderResult result = resultOf(renderer, std::move(image));
     result.stoppedBy = stoppedBy;
     return result;
 }
 
 /// Depth in units of the scene's diagonal; other views are colours already.
 Bitmap displayOfView(const RenderResult& result, const IntegratorInfo& info) {
-    Bitmap display = result.image.mean;
+    Bitmap display = result.image.picture();
     if (info.name == "depth" && result.sceneDiagonal > 0.0f)
         for (float& value : display.pixels) value /= result.sceneDiagonal;
     return display;
@@ -121,15 +123,13 @@ void requireImageExtension(const std::filesystem::path& path) {
 void writeRender(const std::filesystem::path& path, const RenderResult& result, const RenderSettings& settings,
                  const Metadata& metadata) {
     if (path.extension() == ".exr") {
-        writeExr(path, std::array{Layer{"", result.image.mean}, Layer{"variance", result.image.variance},
-                                  Layer{"samples", result.image.samples}},
-                 metadata);
+        writeExr(path, filmLayers(result.image), metadata);
     } else if (path.extension() == ".hdr") {
-        writeHdr(path, result.image.mean, metadata);
+        writeHdr(path, result.image.picture(), metadata);
     } else {
         const IntegratorInfo& info = findIntegrator(settings.integrator);
         const Bitmap display = info.isView ? displayOfView(result, info)
-                                           : tonemapImage(result.image.mean, settings.exposure, settings.tonemap);
+                                           : tonemapImage(result.image.picture(), settings.exposure, settings.tonemap);
         writePng(path, display, metadata);
     }
 }

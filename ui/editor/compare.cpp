@@ -86,7 +86,7 @@ void Comparison::keepReference() {
     }
     const bool aIsBetter = relativeNoise(*a_.picture->film) <= relativeNoise(*b_.picture->film);
     const Picture& better = aIsBetter ? *a_.picture : *b_.picture;
-    kept_ = std::make_shared<const Bitmap>(better.film->mean);
+    kept_ = std::make_shared<const Bitmap>(better.film->picture());
     referenceName_ = std::string(aIsBetter ? "A" : "B") + " after " + std::to_string(better.samples) + " samples";
     reference_ = CompareReference::kept;
     forgetErrors();

@@ -104,7 +104,7 @@ void compareHits(const CompareInput& input, CompareResult& result) {
 }
 
 void compareMeans(const CompareInput& input, CompareResult& result) {
-    const Bitmap &a = input.a->film->mean, &b = input.b->film->mean;
+    const Bitmap &a = input.a->film->picture(), &b = input.b->film->picture();
     if (input.mode == CompareMode::absolute) {
         const Bitmap map = absoluteDifference(a, b);
         result.figureValue = meanOf(map);
@@ -140,16 +140,17 @@ void measureErrors(const CompareInput& input, CompareResult& result) {
     if (input.reference == CompareReference::kept) {
         if (!input.kept || input.kept->pixels.size() != a.mean.pixels.size() || input.kept->width != a.mean.width)
             return;
-        if (input.a->samples > 0) result.errorA = std::sqrt(compareImages(a.mean, *input.kept).relMse);
-        if (input.b->samples > 0) result.errorB = std::sqrt(compareImages(b.mean, *input.kept).relMse);
+        if (input.a->samples > 0) result.errorA = std::sqrt(compareImages(a.picture(), *input.kept).relMse);
+        if (input.b->samples > 0) result.errorB = std::sqrt(compareImages(b.picture(), *input.kept).relMse);
         return;
     }
     if (input.a->samples < 2 || input.b->samples < 2) return;  // noise is not known yet
+    if (!a.denoised.pixels.empty() || !b.denoised.pixels.empty()) return;  // nor ever, but against a picture that is kept
     const double noiseA = relativeNoise(a), noiseB = relativeNoise(b);
     const bool aIsBetter = noiseA <= noiseB;
     // Both have the same random numbers, so that what they differ by may be less than the other's noise.
     const auto against = [](const FilmImage& image, const FilmImage& better, double noise) {
-        return std::max(std::sqrt(compareImages(image.mean, better.mean).relMse), noise);
+        return std::max(std::sqrt(compareImages(image.picture(), better.picture()).relMse), noise);
     };
     result.errorA = aIsBetter ? noiseA : against(a, b, noiseA);
     result.errorB = aIsBetter ? against(b, a, noiseB) : noiseB;

@@ -28,11 +28,9 @@ void writeImage(const std::filesystem::path& path, const FilmImage& film, const 
     for (const Setting<RenderSettings>& setting : renderSettingsTable())
         metadata.emplace_back(setting.name, settingText(getSetting(setting, settings)));
     if (path.extension() == ".exr")
-        writeExr(path,
-                 std::array{Layer{"", film.mean}, Layer{"variance", film.variance}, Layer{"samples", film.samples}},
-                 metadata);
+        writeExr(path, filmLayers(film), metadata);
     else
-        writePng(path, displayImage(film.mean, settings, diagonal), metadata);
+        writePng(path, displayImage(film.picture(), settings, diagonal), metadata);
     logInfo("rendered " + std::filesystem::absolute(path).string());
 }
 
@@ -70,7 +68,7 @@ void renderOnce(Device& device, const Scene& scene, const RenderSettings& settin
                  (settings.targetError > 0.0 && renderer.completeSamples() > 1 &&
                   renderer.snapshot().estimatedRelativeError <= settings.targetError);
     }
-    writeImage(path, renderer.snapshot(), settings, renderer.sceneDiagonal());
+    writeImage(path, renderer.develop([&] { return control.isCancelled(); }), settings, renderer.sceneDiagonal());
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ Bitmap displayImage(Bitmap mean, const RenderSettings& settings, float sceneDiag
 
 Picture developPicture(const FilmImage& film, const Bitmap& backdrop, const RenderSettings& settings,
                        float sceneDiagonal) {
-    Bitmap mean = film.mean;
+    Bitmap mean = film.picture();
     fillGaps(mean, film.samples, backdrop);
     Image8 display = encodeSrgb8(displayImage(std::move(mean), settings, sceneDiagonal));
     Picture picture;

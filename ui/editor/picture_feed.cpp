@@ -28,8 +28,9 @@ bool PictureFeed::isDue(const Renderer& renderer) const {
     return isFirstPass || sinceLast_.seconds() >= interval_;
 }
 
-std::shared_ptr<Picture> PictureFeed::make(Renderer& renderer, const RenderSettings& settings) {
-    const auto film = std::make_shared<const FilmImage>(renderer.snapshot());
+std::shared_ptr<Picture> PictureFeed::make(Renderer& renderer, const RenderSettings& settings,
+                                           const std::function<bool()>& stop) {
+    const auto film = std::make_shared<const FilmImage>(renderer.develop(stop));
     if (renderer.completeSamples() > 1) noise_ = film->estimatedRelativeError;
     auto picture = std::make_shared<Picture>(developPicture(*film, backdrop_, settings, renderer.sceneDiagonal()));
     picture->film = film;
@@ -38,7 +39,7 @@ std::shared_ptr<Picture> PictureFeed::make(Renderer& renderer, const RenderSetti
     picture->samples = renderer.completeSamples();
     picture->number = ++count_;
     madeSamples_ = picture->samples;
-    if (picture->samples > 0) lastMean_ = film->mean;
+    if (picture->samples > 0) lastMean_ = film->picture();
     return picture;
 }
 

@@ -18,8 +18,9 @@ public:
     void begin();
     /// Whether a picture is due: the first with a sample in every pixel, or some time after the last.
     bool isDue(const Renderer& renderer) const;
-    /// The picture of the film as it is now, without hits.
-    std::shared_ptr<Picture> make(Renderer& renderer, const RenderSettings& settings);
+    /// The picture of the film as it is now, without hits. It is not denoised where `stop` says to leave off.
+    std::shared_ptr<Picture> make(Renderer& renderer, const RenderSettings& settings,
+                                  const std::function<bool()>& stop);
     /// All that belongs to the picture has been done; `seconds` is what it took.
     void finish(double seconds);
 

@@ -327,7 +327,9 @@ private:
 
     void publish() {
         const Stopwatch watch;
-        const std::shared_ptr<Picture> picture = pictures_.make(*renderer_, wanted_.settings);
+        renderer_->setDenoiser(wanted_.moving || divisor_ > 1 ? kNoDenoiser : wanted_.settings.denoise);
+        const std::shared_ptr<Picture> picture =
+            pictures_.make(*renderer_, wanted_.settings, [this] { return session_.hasRequest(); });
         picture->hits = lookBehind(picture->width, picture->height);
         session_.publish(picture, [&](RenderStatus& status) { describeProgress(picture->film.get(), status); });
         sinceStatus_.restart();

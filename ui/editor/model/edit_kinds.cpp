@@ -15,6 +15,7 @@ struct SettingKind {
 constexpr std::array kSettingKinds = {
     SettingKind{"exposure", kEditFilm},
     SettingKind{"tonemap", kEditFilm},
+    SettingKind{"denoise", kEditFilm},
     SettingKind{"spp", kEditBudget},
     SettingKind{"time-limit", kEditBudget},
     SettingKind{"target-error", kEditBudget},
