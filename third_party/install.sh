@@ -3,7 +3,7 @@
 # Exit code 3 where packages are missing and there is neither root nor sudo (prints the command instead).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-minimum_mesa=24.1   # lavapipe offers acceleration structures from here on
+minimum_mesa=24.1   # lavapipe offers acceleration structures from here on; 24.0's never ends some kernels
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "raylab: no apt on this system; install by hand what $here/packages.txt lists" >&2
@@ -15,6 +15,11 @@ installed() { [[ "$installed_list" == *" installed $1 "* ]]; }
 available() { [ -n "$(apt-cache madison "$1" 2>/dev/null)" ]; }
 mesa_version() { dpkg-query -W -f='${Version}' mesa-vulkan-drivers 2>/dev/null || echo 0; }
 mesa_is_old() { dpkg --compare-versions "$(mesa_version)" lt "$minimum_mesa"; }
+newer_mesa_is_offered() {
+  local candidate
+  candidate=$(apt-cache policy mesa-vulkan-drivers 2>/dev/null | awk '$1 == "Candidate:" { print $2 }')
+  case "$candidate" in [0-9]*) dpkg --compare-versions "$candidate" ge "$minimum_mesa" ;; *) false ;; esac
+}
 is_bookworm() { . /etc/os-release && [ "${VERSION_CODENAME:-}" = bookworm ]; }
 
 # Lines of the list that no installed package satisfies.
@@ -55,8 +60,11 @@ bookworm_mirror() {
 
 lines=$(missing_lines)
 need_backport=no
-if is_bookworm && mesa_is_old; then need_backport=yes; fi
-if [ -z "$lines" ] && [ "$need_backport" = no ]; then exit 0; fi
+need_upgrade=no
+if mesa_is_old; then
+  if is_bookworm; then need_backport=yes; elif newer_mesa_is_offered; then need_upgrade=yes; fi
+fi
+if [ -z "$lines" ] && [ "$need_backport" = no ] && [ "$need_upgrade" = no ]; then exit 0; fi
 
 as_root=()
 if [ "$(id -u)" != 0 ]; then
@@ -100,6 +108,11 @@ while IFS= read -r line; do
   fi
   names+=("$chosen")
 done <<<"$lines"
+if [ "$need_upgrade" = yes ] && newer_mesa_is_offered; then names+=(mesa-vulkan-drivers); fi
 apt_install() { "${as_root[@]}" apt-get install -y -qq --no-install-recommends "$@" >&2; }
 if [ "$need_backport" = yes ]; then apt_install -t bookworm-backports mesa-vulkan-drivers; fi
 if [ "${#names[@]}" -gt 0 ]; then apt_install "${names[@]}"; fi
+if mesa_is_old; then
+  echo "raylab: Mesa $(mesa_version) is older than $minimum_mesa: on lavapipe hardware traversal is missing and some kernels never end;" \
+    "take mesa-vulkan-drivers from this system's updates (such as noble-updates)" >&2
+fi
