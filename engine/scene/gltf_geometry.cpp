@@ -9,7 +9,6 @@
 namespace raylab {
 namespace {
 
-
 /// Primitive modes of glTF (section 5.24.4) from which triangles come.
 constexpr size_t kTriangles = 4;
 constexpr size_t kTriangleFan = 6;
@@ -32,20 +31,20 @@ public:
         plain_["scenes"] = nlohmann::json::array({{{"nodes", nlohmann::json::array()}}});
     }
 
-    /// False where the primitive yields no triangles.
-    bool add(const JsonView& primitive);
-    /// Accessor of the primitive's texture coordinates, if there is one that fits its positions.
-    std::optional<size_t> uvsOf(const JsonView& primitive, size_t uvSet);
+    /// With texture coordinates of that set. False where the primitive yields no triangles.
+    bool add(const JsonView& primitive, size_t uvSet);
     void finish(PlainGltf& result);
 
 private:
-    nlohmann::json attributesOf(const JsonView& primitive, size_t vertexCount);
+    nlohmann::json attributesOf(const JsonView& primitive, size_t uvSet, size_t vertexCount);
     /// The accessor of an attribute that matches the positions; others are counted.
     std::optional<size_t> matching(const JsonView& primitive, const std::string& name, size_t components,
                                    size_t vertexCount);
     /// Nothing where every triangle names a vertex that does not exist.
     std::optional<size_t> indicesOf(size_t accessor, size_t mode, size_t vertexCount);
     size_t floatAccessor(size_t accessor);
+    /// Of texture coordinates, as (u, 0, v).
+    size_t uvAccessor(size_t accessor);
     size_t passThrough(size_t accessor, const Accessor& info);
     size_t unroll(const void* data, size_t byteCount, size_t count, ComponentType type, const char* shape);
 
@@ -53,7 +52,7 @@ private:
     LeftOut& leftOut_;
     nlohmann::json plain_;
     std::vector<std::byte> unrolled_;
-    std::unordered_map<size_t, size_t> floatAccessors_;
+    std::unordered_map<size_t, size_t> floatAccessors_, uvAccessors_;
 };
 
 const char* shapeName(size_t components) {
@@ -103,6 +102,17 @@ size_t PlainBuilder::floatAccessor(size_t accessor) {
                                   shapeName(info.components));
 }
 
+size_t PlainBuilder::uvAccessor(size_t accessor) {
+    const auto [entry, isNew] = uvAccessors_.try_emplace(accessor, 0);
+    if (!isNew) return entry->second;
+    const std::vector<float> uvs = readFloats(document_, accessor);
+    std::vector<float> values;
+    values.reserve(uvs.size() / 2 * 3);
+    for (size_t i = 0; i + 1 < uvs.size(); i += 2) values.insert(values.end(), {uvs[i], 0.0f, uvs[i + 1]});
+    return entry->second = unroll(values.data(), values.size() * sizeof(float), values.size() / 3, ComponentType::f32,
+                                  shapeName(3));
+}
+
 std::optional<size_t> PlainBuilder::indicesOf(size_t accessor, size_t mode, size_t vertexCount) {
     const std::vector<uint32_t> indices = readIndices(document_, accessor);
     const size_t triangleCount = mode == kTriangles ? indices.size() / 3 : indices.size() - 2;
@@ -130,21 +140,17 @@ std::optional<size_t> PlainBuilder::matching(const JsonView& primitive, const st
     return std::nullopt;
 }
 
-std::optional<size_t> PlainBuilder::uvsOf(const JsonView& primitive, size_t uvSet) {
-    const size_t accessorCount = document_.root().array("accessors").size();
-    const size_t position = *primitive.object("attributes").index("POSITION", accessorCount);
-    return matching(primitive, "TEXCOORD_" + std::to_string(uvSet), 2, accessorAt(document_, position).count);
-}
-
-nlohmann::json PlainBuilder::attributesOf(const JsonView& primitive, size_t vertexCount) {
+nlohmann::json PlainBuilder::attributesOf(const JsonView& primitive, size_t uvSet, size_t vertexCount) {
     const size_t accessorCount = document_.root().array("accessors").size();
     nlohmann::json plain = {{"POSITION", floatAccessor(*primitive.object("attributes").index("POSITION", accessorCount))}};
     if (const auto normal = matching(primitive, "NORMAL", 3, vertexCount)) plain["NORMAL"] = floatAccessor(*normal);
     if (const auto tangent = matching(primitive, "TANGENT", 4, vertexCount)) plain["TANGENT"] = floatAccessor(*tangent);
+    if (const auto uvs = matching(primitive, "TEXCOORD_" + std::to_string(uvSet), 2, vertexCount))
+        plain["TEXCOORD_0"] = uvAccessor(*uvs);
     return plain;
 }
 
-bool PlainBuilder::add(const JsonView& primitive) {
+bool PlainBuilder::add(const JsonView& primitive, size_t uvSet) {
     const size_t accessorCount = document_.root().array("accessors").size();
     const std::optional<size_t> position = primitive.object("attributes").index("POSITION", accessorCount);
     if (!position) return false;
@@ -155,7 +161,7 @@ bool PlainBuilder::add(const JsonView& primitive) {
     if (mode < kTriangles) leftOut_.pointsAndLines += cornerCount / (mode == 1 ? 2 : 1);
     if (mode < kTriangles || cornerCount < 3 || vertexCount == 0) return false;
 
-    nlohmann::json plain = {{"mode", mode}, {"attributes", attributesOf(primitive, vertexCount)}};
+    nlohmann::json plain = {{"mode", mode}, {"attributes", attributesOf(primitive, uvSet, vertexCount)}};
     if (indices) {
         const std::optional<size_t> copied = indicesOf(*indices, mode, vertexCount);
         if (!copied) return false;
@@ -211,10 +217,9 @@ PlainGltf plainGeometry(const GltfDocument& document, std::span<const PlacedNode
         const std::string name = meshes.element(m).text("name", "mesh " + std::to_string(m));
         for (size_t p = 0; p < primitives.size(); ++p) {
             const auto material = primitives.element(p).index("material", uvSets.size());
-            if (!builder.add(primitives.element(p))) continue;
+            if (!builder.add(primitives.element(p), material ? uvSets[*material] : 0)) continue;
             const std::string suffix = primitives.size() > 1 ? " [" + std::to_string(p) + "]" : "";
-            const auto uvs = builder.uvsOf(primitives.element(p), material ? uvSets[*material] : 0);
-            result.parts.push_back({m, name + suffix, material, uvs});
+            result.parts.push_back({m, name + suffix, material});
         }
     }
     builder.finish(result);

@@ -15,13 +15,13 @@ struct GltfPart {
     size_t mesh = 0;
     std::string name;
     std::optional<size_t> material;
-    std::optional<size_t> uvs;  ///< accessor of the texture coordinates
 };
 
 /// The geometry of a document in the plainest glTF there is: one mesh a part (named by its index), float attributes, no
-/// images, materials, texture coordinates, skins or sparse accessors. Assimp 5.2.5 misreads integer texture coordinates
-/// and rounds the others, refuses interleaved views without trailing padding, and crashes on some damaged extras; none
-/// of these reach it.
+/// images, materials, skins or sparse accessors. Texture coordinates are (u, 0, v): of three components Assimp turns the
+/// second one upside down, 1 - v, which rounds. Assimp 5.2.5 misreads integer texture coordinates, refuses interleaved
+/// views without trailing padding, and crashes on some damaged extras; none of these reach it. From 5.3 on it numbers
+/// vertices anew, so all that belongs to one goes through it.
 struct PlainGltf {
     std::vector<GltfPart> parts;
     std::string json;

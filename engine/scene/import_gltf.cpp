@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "engine/scene/assimp_reader.h"
-#include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_extras.h"
 #include "engine/scene/gltf_geometry.h"
 #include "engine/scene/gltf_material.h"
@@ -56,9 +55,7 @@ void convertParts(const GltfDocument& document, const PlainGltf& plain, std::spa
     std::vector<MeshRepairs> repairs(plain.parts.size());
     tbb::parallel_for(size_t{0}, plain.parts.size(), [&](size_t p) {
         if (!sources[p]) return;
-        const std::vector<float> uvs =
-            plain.parts[p].uvs ? readFloats(document, *plain.parts[p].uvs) : std::vector<float>();
-        scene.meshes[p] = convertMesh(*sources[p], {.uvs = uvs}, repairs[p]);
+        scene.meshes[p] = convertMesh(*sources[p], {.uvs = UvForm::plainGltf}, repairs[p]);
         if (plain.parts[p].material) bakeUvTransform(scene.meshes[p], uvUses[*plain.parts[p].material].transform);
     });
     for (size_t p = 0; p < plain.parts.size(); ++p) {

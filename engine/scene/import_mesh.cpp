@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -60,14 +59,13 @@ void copyTriangles(const aiMesh& source, Mesh& mesh, MeshRepairs& repairs) {
     }
 }
 
-/// Assimp counts v upwards in every format; Scene counts it downwards.
-void copyUvs(const aiMesh& source, std::span<const float> uvs, Mesh& mesh, MeshRepairs& repairs) {
-    if (uvs.empty() && !source.HasTextureCoords(0)) return;
+/// Scene counts v downwards.
+void copyUvs(const aiMesh& source, UvForm form, Mesh& mesh, MeshRepairs& repairs) {
+    if (!source.HasTextureCoords(0)) return;
     mesh.uvs.resize(mesh.positions.size());
     for (size_t i = 0; i < mesh.uvs.size(); ++i) {
-        const aiVector3D flipped = uvs.empty() ? source.mTextureCoords[0][i] : aiVector3D();
-        const glm::vec2 uv =
-            uvs.empty() ? glm::vec2(flipped.x, 1.0f - flipped.y) : glm::vec2(uvs[2 * i], uvs[2 * i + 1]);
+        const aiVector3D& given = source.mTextureCoords[0][i];
+        const glm::vec2 uv(given.x, form == UvForm::upwards ? 1.0f - given.y : given.z);
         const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
         repairs.uvs += !finite;
         mesh.uvs[i] = finite ? uv : glm::vec2(0.0f);
@@ -175,7 +173,6 @@ Mesh convertMesh(const aiMesh& source, const MeshOptions& options, MeshRepairs& 
     mesh.positions.resize(source.mNumVertices);
     for (size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] = toVec3(source.mVertices[i]);
     copyTriangles(source, mesh, repairs);
-    assert(options.uvs.empty() || options.uvs.size() == 2 * mesh.positions.size());
     copyUvs(source, options.uvs, mesh, repairs);
     if (source.HasNormals() && options.normals != NormalRule::flat) copyNormals(source, mesh, repairs);
     if (!mesh.normals.empty() && source.HasTangentsAndBitangents()) copyTangents(source, mesh);

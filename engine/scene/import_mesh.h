@@ -31,11 +31,13 @@ struct MeshRepairs {
 /// Coordinates beyond this count as non-finite: their squares would overflow a float.
 constexpr float kLargestSceneCoordinate = 1e18f;
 
+/// How texture coordinates arrive: (u, 1 - v) of Assimp's readers, or (u, *, v) of PlainGltf.
+enum class UvForm { upwards, plainGltf };
+
 struct MeshOptions {
     NormalRule normals = NormalRule::keep;
     bool weld = false;  ///< merge vertices whose attributes agree bit for bit
-    /// u and v (downwards) of each vertex, instead of Assimp's: its glTF reader stores 1 - v, which rounds.
-    std::span<const float> uvs = {};
+    UvForm uvs = UvForm::upwards;
 };
 
 /// Unit length to within the rounding of floats. Such a vector is kept as it is: normalising it again would move its
