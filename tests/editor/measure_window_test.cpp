@@ -91,7 +91,8 @@ TEST_F(MeasureWindowTest, AdviceThatIsStoppedLeavesTheEditorAsItWas) {
 TEST_F(MeasureWindowTest, AdviceOnOneSettingIsAdoptedAndSaved) {
     std::string script = "wait-samples 1\npanel Advice\nwait 0.3\npress advice-width\ntype 32\nkey Enter\nwait 0.2\n"
                          "press advice-searched\nwait 0.2\n";
-    for (const char* name : {"integrator", "light-choice", "sampler", "roulette-depth", "tracer", "layout", "builder"})
+    for (const char* name : {"integrator", "light-choice", "sampler", "roulette-depth", "tracer", "layout", "builder",
+                             "adaptive", "denoise"})
         script += std::string("press advice-search-") + name + "\n";
     script +=
         "screenshot searched.png\npress advice-run\nwait 0.3\npress advice-run\nwait-until advice-running == 1\n"

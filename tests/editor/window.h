@@ -48,11 +48,17 @@ protected:
             "export WINDOW=$(timeout 20 xdotool search --sync --onlyvisible --name raylab | head -n 1)\n";
         writeFile("user.sh", user);
         writeFile("both.sh",
-                  user.empty() ? edit + "\n" : edit + " & export editor=$!\n" + find + "sh ./user.sh\nwait $editor\n");
+                  (user.empty() ? edit + "\n" : edit + " & export editor=$!\n" + find + "sh ./user.sh\nwait $editor\n") +
+                      "echo $? > exit-code\n");
+        std::filesystem::remove(folder_ / "exit-code");
+        // Each process looks for a free display from another number on, or two find the same one.
+        const std::string display = std::to_string(100 + ::getpid() % 10000);
         const std::string command = "cd '" + folder_.string() + "' && XDG_CONFIG_HOME='" + folder_.string() +
-                                    "' XDG_STATE_HOME='" + folder_.string() +
-                                    "' timeout 120 xvfb-run -a -s '-screen 0 1280x720x24' sh ./both.sh > log 2>&1";
+                                    "' XDG_STATE_HOME='" + folder_.string() + "' timeout 120 xvfb-run -n " + display +
+                                    " -a -s '-screen 0 1280x720x24' sh ./both.sh > log 2>&1";
         const int status = std::system(command.c_str());
+        // What xvfb-run ends with may be its own trouble with its temporary folder.
+        if (const std::string own = readFile("exit-code"); !own.empty()) return std::stoi(own);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     /// Runs a script of the editor's own commands.

@@ -259,10 +259,13 @@ TEST(SaveGltf, AssimpReadsTheSame) {
         const Mesh& mesh = scene.meshes[m];
         ASSERT_EQ(read->mMeshes[m]->mNumVertices, mesh.positions.size());
         ASSERT_EQ(read->mMeshes[m]->mNumFaces, mesh.triangles.size());
-        EXPECT_EQ(std::memcmp(read->mMeshes[m]->mVertices, mesh.positions.data(), 12 * mesh.positions.size()), 0);
-        EXPECT_EQ(read->mMeshes[m]->mFaces[4].mIndices[1], mesh.triangles[4].y);
+        for (unsigned f = 0; f < read->mMeshes[m]->mNumFaces; ++f)
+            for (int c = 0; c < 3; ++c)  // vertices may have other numbers
+                EXPECT_EQ(std::memcmp(&read->mMeshes[m]->mVertices[read->mMeshes[m]->mFaces[f].mIndices[c]],
+                                      &mesh.positions[mesh.triangles[f][c]], sizeof(glm::vec3)),
+                          0);
     }
-    EXPECT_EQ(read->mNumTextures, 11u) << "of the fourteen, all but those of anisotropy and specular, which Assimp 5.2 does not know";
+    EXPECT_GE(read->mNumTextures, 11u) << "of the fourteen; Assimp 5.2 does not know those of anisotropy and specular";
     ASSERT_EQ(read->mNumLights, 40u);
     EXPECT_EQ(read->mLights[2]->mType, aiLightSource_SPOT);
     ASSERT_EQ(read->mNumCameras, 40u);
