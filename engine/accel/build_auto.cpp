@@ -22,6 +22,7 @@ BuildControl partOf(const BuildControl& control, float from, float to) {
 Bvh buildAuto(const BuildInput& input, const BvhConfig& config, const BuildControl& control) {
     Bvh binned = buildBinned(input.bounds, config, partOf(control, 0.0f, kBinnedShare));
     if (input.triangles.empty() || measureQuality(binned, config).siblingOverlap <= kOverlapWorthSplits) return binned;
+    binned = {};
     return buildSpatial(input, config, partOf(control, kBinnedShare, 1.0f));
 }
 

@@ -24,8 +24,8 @@ struct BvhNode {
 /// then everything below the right one (so children come after their parents). No primitives: no nodes.
 struct Bvh {
     std::vector<BvhNode> nodes;
-    /// Primitive ids in leaf order. Each usable primitive is there once; only the builder `spatial` lists some again,
-    /// in other leaves, with a part of the primitive in the box of each: order.size() less the usable ones are
+    /// Primitive ids in leaf order. Each usable primitive is there once; only the builders `spatial` and `auto` list
+    /// some again, in other leaves, with a part of the primitive in the box of each: order.size() less the usable ones are
     /// duplicates.
     std::vector<uint32_t> order;
     uint32_t depth = 0;  ///< edges between the root and the deepest leaf

@@ -35,6 +35,7 @@ bool findHit(Ray ray, bool anyHit, out Candidate hit) {
         uvec4 range = texelFetch(traceInstanceWords, int(i * kWordsTraceInstance) + 5);
         uint owner = texelFetch(traceInstanceWords, int(i * kWordsTraceInstance) + 4).w;
         vec3 origin, direction;
+        countInstance();
         transformRay(ray, i, origin, direction);
         TriangleRay local = triangleRay(origin, direction);
         SlabRay slab = slabRay(origin, direction);

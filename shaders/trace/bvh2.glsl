@@ -53,6 +53,7 @@ bool findHit(Ray ray, bool anyHit, out Candidate hit) {
         countLeafStep(top);
         uint slot = node & kTreeLeafFirstMask;
         if (needs(kNeedInstancing) && upper) {
+            countInstance();
             object = enterObject(ray, slot, node);
             floor = top;
             upper = false;

@@ -90,7 +90,9 @@ bool findHit(Ray ray, bool anyHit, out Candidate hit) {
         else
             countNode(((w0.w >> 24) & 3u) + 1u, met, top);
         if (subgroupAny(isTriangle)) testBlock(ray, object, w0, w1, w2, w3, isTriangle, hit);
-        if (needs(kNeedQuadrics) && isQuadric) considerQuadric(ray, object.triangle, w0, w1, w2, object.instance, hit);
+        if (needs(kNeedQuadrics) && subgroupAny(isQuadric)) {
+            if (isQuadric) considerQuadric(ray, object.triangle, w0, w1, w2, object.instance, hit);
+        }
 
         bool descend = children != kNoChildren;
         bool hasRest = (group & kGroupMask) != kNoChildren;
@@ -104,8 +106,9 @@ bool findHit(Ray ray, bool anyHit, out Candidate hit) {
         group = descend ? (w2.z << kGroupBits) | (children >> 2) : (from & ~kGroupMask) | ((from & kGroupMask) >> 2);
         if (needs(kNeedInstancing) && subgroupAny(enter)) {
             uint root;
-            ObjectRay entered = enterObject(ray, w0.w & kInstanceMask, root);
+            ObjectRay entered = enterObject(ray, enter ? w0.w & kInstanceMask : 0u, root);
             if (enter) {
+                countInstance();
                 object = entered;
                 block = root;
                 group = kNoChildren;

@@ -121,6 +121,7 @@ bool findHit(Ray ray, bool anyHit, out Candidate hit) {
             }
             if (((reference >> kTreeLeafCountShift) & 15u) != 0u)
                 stack[++top] = reference - (1u << kTreeLeafCountShift) + 1u;
+            countInstance();
             object = enterObject(ray, reference & kTreeLeafFirstMask, node);
             floor = top;
             upper = false;

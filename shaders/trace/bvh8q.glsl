@@ -91,6 +91,7 @@ bool findHit(Ray ray, bool anyHit, out Candidate hit) {
                 stack[top] = firstSlot;
                 stack[top + 1] = slots;
             }
+            countInstance();
             object = enterObject(ray, entered, group.x);
             group.y = 1u << 31;
             slots = 0u;

@@ -87,6 +87,11 @@ void countLeafStep(int top) {
     counted.stackHigh = max(counted.stackHigh, uint(top) + 1u);
 }
 
+// An instance is entered.
+void countInstance() {
+    if (kCount != 0u) ++counted.instances;
+}
+
 // The ray in the space of a tree over triangles.
 struct ObjectRay {
     SlabRay slab;
@@ -96,7 +101,6 @@ struct ObjectRay {
 
 // The ray in the space of the tree at `slot` of the trace instances.
 void transformRay(Ray ray, uint slot, out vec3 origin, out vec3 direction) {
-    if (kCount != 0u) ++counted.instances;
     int at = int(slot * kWordsTraceInstance);
     vec4 row0 = uintBitsToFloat(texelFetch(traceInstanceWords, at));
     vec4 row1 = uintBitsToFloat(texelFetch(traceInstanceWords, at + 1));

@@ -85,13 +85,15 @@ void measureKeepingRows(const BenchOptions& options, BenchRun& run, const std::f
 void measureScene(BenchRun& run, const std::string& name, const Scene& scene, const BenchPlan& plan, bool print) {
     run.scenes.push_back(benchScene(run.device, name, scene, plan));
     if (print) printRows(run, run.scenes.back());
-    if (InterruptGuard::isInterrupted()) throw Interrupted();
+    if (!run.scenes.back().complete) throw Interrupted();
 }
 
 void measureScenes(const BenchOptions& options, const BenchPlan& plan, BenchRun& run) {
     measureKeepingRows(options, run, [&] {
-        for (const std::string& name : options.scenes)
+        for (const std::string& name : options.scenes) {
+            if (InterruptGuard::isInterrupted()) throw Interrupted();
             measureScene(run, name, loadBenchScene(name, options.materials), plan, options.json != "-");
+        }
     });
 }
 

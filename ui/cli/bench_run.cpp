@@ -66,16 +66,24 @@ Scene loadBenchScene(const std::string& name, bool materials) {
 }
 
 SceneRows benchScene(Device& device, const std::string& name, const Scene& scene, const BenchPlan& plan) {
-    const std::vector<RaySet> sets = raysOf(device, scene, plan);
+    const SceneRows interrupted{.scene = name, .rows = {}, .complete = false};
+    if (InterruptGuard::isInterrupted()) return interrupted;
+    std::vector<RaySet> sets = raysOf(device, scene, plan);
+    std::erase_if(sets, [](const RaySet& set) { return set.rays.empty(); });
     std::vector<std::unique_ptr<BenchSubject>> subjects;
-    for (const Variant& variant : plan.variants)
+    for (const Variant& variant : plan.variants) {
+        if (InterruptGuard::isInterrupted()) return interrupted;
         subjects.push_back(makeDeviceSubject(device, scene, variant.settings, variant.text));
+    }
     const bool hasQuadrics = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return !mesh.quadrics.empty(); });
     if (plan.peers && hasQuadrics)
         logWarning(name + " holds quadrics, which the peers (Embree, the walk on the CPU) are not given: they are left out");
     else if (plan.peers)
         for (std::unique_ptr<BenchSubject>& peer : makePeerSubjects(scene)) subjects.push_back(std::move(peer));
-    return {name, runRayBench(subjects, sets, plan.repeats, InterruptGuard::isInterrupted)};
+    if (InterruptGuard::isInterrupted()) return interrupted;
+    SceneRows result{.scene = name, .rows = runRayBench(subjects, sets, plan.repeats, InterruptGuard::isInterrupted)};
+    result.complete = result.rows.size() == subjects.size() * sets.size();
+    return result;
 }
 
 }  // namespace raylab

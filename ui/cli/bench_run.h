@@ -52,6 +52,7 @@ struct BenchPlan {
 struct SceneRows {
     std::string scene;
     std::vector<BenchRow> rows;
+    bool complete = true;  ///< false where an interruption left some out
 };
 
 /// By name or path, with a settled environment; without materials where these are not asked for, so that every tracer

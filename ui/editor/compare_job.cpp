@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/luminance.h"
 #include "engine/image/srgb.h"
 #include "engine/measure/difference_map.h"
 #include "engine/measure/flip.h"
@@ -93,7 +94,7 @@ void compareHits(const CompareInput& input, CompareResult& result) {
     size_t others = 0;
     for (size_t i = 0; i < result.texels.size(); ++i) {
         const float* p = picture.pixels.data() + 3 * i;
-        const float grey = kDim * (0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2]);
+        const float grey = kDim * static_cast<float>(luminance(p));
         const bool isOther = !(a->hits[i] == b->hits[i]);
         others += isOther ? 1 : 0;
         const std::array<float, 3> dim = {grey, grey, grey};

@@ -168,7 +168,8 @@ void drawLayout(EditorContext& context) {
     EditorConfig& config = context.config;
     const float splitter = kSplitter * s, status = kStatusHeight * s;
     const float height = display.y - top - status;
-    float bottomHeight = std::max(config.bottomHeight, leastHeightOf(context, Pane::bottom));
+    const float highest = std::max(0.7f * height / s, kSmallestPane);
+    float bottomHeight = std::clamp(std::max(config.bottomHeight, leastHeightOf(context, Pane::bottom)), kSmallestPane, highest);
     const float left = config.leftWidth * s, right = config.rightWidth * s, bottom = bottomHeight * s;
     const float centreX = left + splitter;
     const float centreWidth = std::max(display.x - left - right - 2.0f * splitter, 50.0f);
@@ -185,7 +186,7 @@ void drawLayout(EditorContext& context) {
     drawSplitter("split right", {display.x - right - splitter, top, splitter, height}, true, -1.0f / s, config.rightWidth,
                  widest);
     if (drawSplitter("split bottom", {centreX, top + viewHeight, centreWidth, splitter}, false, -1.0f / s, bottomHeight,
-                     0.7f * height / s))
+                     highest))
         config.bottomHeight = bottomHeight;
     context.layoutRequest.clear();
     drawKeysOverlay(context);

@@ -37,7 +37,7 @@ void drawDetails(const SceneBuild& build, uint32_t tree) {
         figureRow("SAH", figureText(quality.sah), "expected cost of a long ray through the root");
         figureRow("EPO", epoText(build, tree), "end-point overlap: Aila, Karras and Laine, HPG 2013");
         figureRow("sibling overlap", figureText(100.0 * quality.siblingOverlap) + " %");
-        figureRow("primitives", countText(figures.references), "references: the builder spatial lists some twice");
+        figureRow("primitives", countText(figures.references), "references: the builders spatial and auto list some twice");
         figureRow("nodes", countText(quality.nodes));
         figureRow("leaf size", figureText(quality.meanLeafSize) + " on average");
         figureRow("depth", std::to_string(quality.depth));
