@@ -8,14 +8,14 @@
 namespace raylab {
 namespace {
 
-/// First hits of a pixel that its guides are means of; no more than the picture has.
-constexpr int64_t kGuideSamples = 8;
+/// First hits of a pixel that its guides are means of: half as many as its samples, between these.
+constexpr int64_t kLeastGuideSamples = 2, kMostGuideSamples = 8;
 constexpr std::array kGuideViews = {"albedo", "normal", "depth"};
 
 /// As the picture sees it, by the cheapest kernel.
 RenderSettings viewSettings(RenderSettings settings, const char* view) {
     settings.integrator = view;
-    settings.spp = std::min(settings.spp, kGuideSamples);
+    settings.spp = std::clamp(settings.spp / 2, kLeastGuideSamples, kMostGuideSamples);
     settings.adaptive = false;
     settings.schedule = "mega";
     settings.clamp = 0.0;
