@@ -63,6 +63,7 @@ std::string versionText(uint32_t apiVersion) {
 }
 
 std::vector<DeviceDescription> listDevices() {
+    const std::scoped_lock lock(loaderMutex());
     VkInstance instance = makeInstance(false);
     std::vector<DeviceDescription> descriptions;
     for (VkPhysicalDevice device : physicalDevices(instance))
@@ -74,9 +75,12 @@ std::vector<DeviceDescription> listDevices() {
 Device::Device(const DeviceOptions& options) {
     try {
         keepsPipelines_ = !options.graphics;
-        createInstance(options);
-        choosePhysicalDevice(options.selector);
-        createDevice(options);
+        {
+            const std::scoped_lock lock(loaderMutex());
+            createInstance(options);
+            choosePhysicalDevice(options.selector);
+            createDevice(options);
+        }
         createCommandObjects();
         loadPipelineCache();
     } catch (...) {
@@ -95,6 +99,9 @@ void Device::destroy() {
         timestamps_ = {};
         fence_ = {};
         commandPool_ = {};
+    }
+    const std::scoped_lock lock(loaderMutex());
+    if (device_ != VK_NULL_HANDLE) {
         vkDestroyDevice(device_, nullptr);
         forgetSimulatedLoss(device_);
         device_ = VK_NULL_HANDLE;
@@ -265,6 +272,7 @@ void Device::setObjectName(uint64_t object, VkObjectType type, const std::string
     info.objectType = type;
     info.objectHandle = object;
     info.pObjectName = name.c_str();
+    const std::scoped_lock lock(loaderMutex());
     check(function(device_, &info), "vkSetDebugUtilsObjectNameEXT");
 }
 

@@ -102,6 +102,11 @@ void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger) {
                                                                                                        nullptr);
 }
 
+std::mutex& loaderMutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
     uint32_t count = 0;
     check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");

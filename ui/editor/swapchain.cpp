@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/gpu/check.h"
+#include "engine/gpu/instance.h"
 #include "engine/gpu/submit.h"
 #include "ui/editor/image_barrier.h"
 #include "ui/editor/theme.h"
@@ -140,7 +141,10 @@ void Swapchain::create(VkExtent2D size) {
     info.clipped = VK_TRUE;
     info.oldSwapchain = swapchain_.get();
     VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-    check(vkCreateSwapchainKHR(device_.get(), &info, nullptr, &swapchain), "vkCreateSwapchainKHR");
+    {
+        const std::scoped_lock lock(loaderMutex());
+        check(vkCreateSwapchainKHR(device_.get(), &info, nullptr, &swapchain), "vkCreateSwapchainKHR");
+    }
     framebuffers_.clear();
     views_.clear();
     swapchain_ = {device_.get(), swapchain};
