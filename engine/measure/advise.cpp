@@ -20,8 +20,8 @@ namespace {
 constexpr double kProbeSeconds = 0.25;
 constexpr uint32_t kMostProbeSamples = 256;
 constexpr int kProbeSeeds = 4;
-/// That a step takes at most: a first look, and the probes.
-constexpr uint32_t kSeedsOfStep = 1 + kProbeSeeds;
+/// That a step takes at most: a first look, the held settings alone, and the probes.
+constexpr uint32_t kSeedsOfStep = 1 + 2 * kProbeSeeds;
 /// A candidate this many times slower than the held value after two seeds is measured no longer.
 constexpr double kHopeless = 3.0;
 /// A gain that is less is not worth an unusual setting.
@@ -35,7 +35,8 @@ constexpr double kLeastPower = 0.9, kMostPower = 1.5;
 /// its pilot is one of that many.
 constexpr double kAdaptiveShare = 0.125;
 constexpr uint32_t kLeastAdaptive = 16;
-/// A denoiser is looked at with twice the samples each time, up to these.
+/// A denoiser is looked at with twice the samples each time: no further where the rate of the last two doublings does
+/// not come to the goal within these.
 constexpr uint32_t kMostDenoiseSamples = 1u << 20;
 constexpr const char* kAdaptive = "adaptive";
 constexpr const char* kDenoise = "denoise";
@@ -57,6 +58,7 @@ bool isOffered(const std::string& setting, const std::string& value, const Rende
     if (setting == "integrator") return !findIntegrator(value).isView;
     if (setting == "tracer") return value != "brute" && missingForTracer(value, device.description()).empty();
     if (setting == kAdaptive) return held.sampler != "stratified";
+    if (setting == "sampler") return !held.adaptive || value != "stratified";
     if (setting == "layout" || setting == "builder") return held.tracer == "software" && value != kAutoLayout;
     return true;
 }
@@ -86,6 +88,13 @@ struct DenoisedForecast {
     double energy = 0.0;
 };
 
+double medianSeconds(const Probe& probe, double error) {
+    std::vector<double> seconds;
+    for (size_t seed = 0; seed < probe.sampleSeconds.size(); ++seed)
+        seconds.push_back(probe.secondsToError(error, seed));
+    return medianOf(seconds);
+}
+
 /// The state of a search.
 class Search {
 public:
@@ -109,6 +118,8 @@ private:
     std::optional<std::vector<Probe>> measure(std::span<const RenderSettings> candidates, uint32_t samples, int seeds) {
         ProbePlan plan;
         plan.samples = samples;
+        for (const RenderSettings& candidate : candidates)
+            plan.samples = std::max(plan.samples, leastSamples(candidate));
         plan.seeds = seeds;
         plan.firstSeed = nextSeed_;
         plan.hopeless = kHopeless;
@@ -123,6 +134,11 @@ private:
         if (coordinate.setting != std::string_view(kAdaptive)) return usual;
         const double share = std::min(kAdaptiveShare * wantedSamples_, double{kMostProbeSamples});
         return std::max({usual, kLeastAdaptive, static_cast<uint32_t>(share)});
+    }
+    bool lookAtHeld(const RenderSettings& held, bool needsWanted);
+    void noteHeld(const Probe& probe) {
+        sampleSeconds_ = probe.medianSampleSeconds();
+        wantedSamples_ = medianSeconds(probe, errorFor(probe)) / sampleSeconds_;
     }
     std::optional<Forecast> forecastBySamples(const RenderSettings& settings);
     std::optional<DenoisedForecast> forecastDenoised(const RenderSettings& settings, double mostSeconds);
@@ -141,10 +157,10 @@ private:
     double wantedSamples_ = 0.0;  ///< that they take to the goal
 };
 
-/// Paired by seed: both saw the same random numbers on a machine of the same mood.
+/// Paired by seed: both saw the same random numbers on a machine of the same mood. One without hope has fewer seeds.
 Interval gainOf(const Probe& held, const Probe& other, double error) {
     std::vector<double> ratios;
-    for (size_t seed = 0; seed < held.sampleSeconds.size(); ++seed) {
+    for (size_t seed = 0; seed < std::min(held.sampleSeconds.size(), other.sampleSeconds.size()); ++seed) {
         const double before = held.secondsToError(error, seed), after = other.secondsToError(error, seed);
         if (std::isinf(after)) return {0.0, 0.0, 0.0};
         ratios.push_back(std::isinf(before) ? std::numeric_limits<double>::infinity() : before / after);
@@ -157,13 +173,6 @@ AdviceOption optionOf(const std::string& value, const Probe& held, const Probe& 
     return {value, gainOf(held, other, error), std::sqrt(other.biasSquared()), other.energy, other.buildSeconds};
 }
 
-double medianSeconds(const Probe& probe, double error) {
-    std::vector<double> seconds;
-    for (size_t seed = 0; seed < probe.sampleSeconds.size(); ++seed)
-        seconds.push_back(probe.secondsToError(error, seed));
-    return medianOf(seconds);
-}
-
 /// The fastest of those whose gain is one with confidence.
 size_t choose(const std::vector<AdviceOption>& options, const std::vector<Probe>& probes, double error) {
     size_t best = 0;
@@ -174,17 +183,29 @@ size_t choose(const std::vector<AdviceOption>& options, const std::vector<Probe>
     return best;
 }
 
+/// What no step before has told of the held settings.
+bool Search::lookAtHeld(const RenderSettings& held, bool needsWanted) {
+    const std::vector<RenderSettings> one{held};
+    if (sampleSeconds_ == 0.0) {
+        const auto first = measure(one, 1, 1);
+        if (!first) return false;
+        sampleSeconds_ = first->front().medianSampleSeconds();
+    }
+    if (needsWanted && wantedSamples_ == 0.0) {
+        const auto probes = measure(one, samplesFor(sampleSeconds_), kProbeSeeds);
+        if (!probes) return false;
+        noteHeld(probes->front());
+    }
+    return true;
+}
+
 bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, std::vector<AdviceStep>& steps) {
     const std::vector<std::string> values = valuesOf(coordinate, held, device_);
     if (values.size() < 2) return true;
     const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), coordinate.setting);
     std::vector<RenderSettings> candidates(values.size(), held);
     for (size_t i = 0; i < values.size(); ++i) setSetting(setting, candidates[i], values[i]);
-    if (sampleSeconds_ == 0.0) {
-        const auto first = measure(std::span(candidates).first(1), 1, 1);
-        if (!first) return false;
-        sampleSeconds_ = first->front().medianSampleSeconds();
-    }
+    if (!lookAtHeld(held, coordinate.setting == std::string_view(kAdaptive))) return false;
     const auto probes = measure(candidates, samplesOf(coordinate), kProbeSeeds);
     if (!probes) return false;
     const double error = errorFor(probes->front());
@@ -194,8 +215,7 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, s
     const size_t best = choose(step.options, *probes, error);
     step.chosen = values[best];
     held = candidates[best];
-    sampleSeconds_ = (*probes)[best].medianSampleSeconds();
-    wantedSamples_ = medianSeconds((*probes)[best], error) / sampleSeconds_;
+    noteHeld((*probes)[best]);
     steps.push_back(std::move(step));
     return true;
 }
@@ -237,13 +257,23 @@ std::optional<Forecast> Search::forecastBySamples(const RenderSettings& settings
     return Forecast{static_cast<uint32_t>(samples), samples * high.medianSampleSeconds(), error, std::sqrt(bias)};
 }
 
-DenoisedLevel levelOf(const Probe& probe) {
-    return {static_cast<double>(probe.samples), probe.medianSampleSeconds() * probe.samples, probe.rmsError()};
+/// Errors that the reference's own noise hides count as large as that, and as one in a million at least.
+double leastError(const Reference& reference) { return std::max(reference.relativeError, 1e-6); }
+
+DenoisedLevel levelOf(const Probe& probe, double leastError) {
+    return {static_cast<double>(probe.samples), probe.medianSampleSeconds() * probe.samples,
+            std::max(probe.rmsError(), leastError)};
 }
 
-DenoisedLevel levelOf(const Probe& probe, size_t seed) {
+DenoisedLevel levelOf(const Probe& probe, size_t seed, double leastError) {
     return {static_cast<double>(probe.samples), probe.sampleSeconds[seed] * probe.samples,
-            std::sqrt(std::max(0.0, probe.squaredErrors[seed]))};
+            std::max(std::sqrt(std::max(0.0, probe.squaredErrors[seed])), leastError)};
+}
+
+/// Whether the error would pass the goal within kMostDenoiseSamples if it fell on as from one level to the next.
+bool isHeadedFor(double goal, const DenoisedLevel& low, const DenoisedLevel& high) {
+    const double power = std::log(low.error / high.error) / std::log(high.samples / low.samples);
+    return high.error <= goal * std::pow(kMostDenoiseSamples / high.samples, power);
 }
 
 /// Between two levels: the time along a line, the error along a power of the samples. The higher one where the error
@@ -262,27 +292,37 @@ DenoisedLevel whereGoalIs(const AdviceGoal& goal, const DenoisedLevel& low, cons
 }
 
 /// A denoiser's error falls neither as its samples' does nor as any power that is known, and its bias with it: measured
-/// with twice the samples each time, until the goal is passed or more than `mostSeconds` have gone.
+/// with twice the samples each time, until the goal is passed, is out of sight or more than `mostSeconds` have gone.
 std::optional<DenoisedForecast> Search::forecastDenoised(const RenderSettings& settings, double mostSeconds) {
     const std::vector<RenderSettings> one{settings};
-    std::optional<Probe> before;
+    const double least = leastError(reference_);
+    std::vector<Probe> levels;
     DenoisedForecast found;
+    int timesAstray = 0;
     for (uint32_t samples = leastSamples(settings); samples <= kMostDenoiseSamples; samples *= 2) {
         const auto probes = measure(one, samples, kProbeSeeds);
         if (!probes) return std::nullopt;
-        const Probe& now = probes->front();
-        const DenoisedLevel level = levelOf(now);
+        const Probe& now = levels.emplace_back(probes->front());
+        const DenoisedLevel level = levelOf(now, least);
         found.relativeBias = std::sqrt(now.biasSquared());
         found.energy = now.energy;
-        if (goal_.relativeError > 0.0 ? level.error <= goal_.relativeError : level.seconds > goal_.seconds) {
-            found.all = before ? whereGoalIs(goal_, levelOf(*before), level) : level;
-            for (size_t seed = 0; seed < now.sampleSeconds.size(); ++seed)
-                found.seeds.push_back(before ? whereGoalIs(goal_, levelOf(*before, seed), levelOf(now, seed))
-                                             : levelOf(now, seed));
+        const bool isByError = goal_.relativeError > 0.0;
+        const bool isLast = !isByError && samples * 2 > kMostDenoiseSamples;
+        if (isLast || (isByError ? level.error <= goal_.relativeError : level.seconds > goal_.seconds)) {
+            const Probe* const before = levels.size() > 1 ? &levels[levels.size() - 2] : nullptr;
+            found.all = before ? whereGoalIs(goal_, levelOf(*before, least), level) : level;
+            for (size_t seed = 0; seed < now.sampleSeconds.size(); ++seed) {
+                const DenoisedLevel high = levelOf(now, seed, least);
+                found.seeds.push_back(before ? whereGoalIs(goal_, levelOf(*before, seed, least), high) : high);
+            }
             break;
         }
         if (level.seconds > mostSeconds) break;
-        before = now;
+        if (isByError && levels.size() > 1)
+            timesAstray = isHeadedFor(goal_.relativeError, levelOf(levels[levels.size() - 2], least), level)
+                              ? 0
+                              : timesAstray + 1;
+        if (timesAstray == 2) break;
     }
     return found;
 }
@@ -305,7 +345,7 @@ bool Search::tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, 
         if (name == step.held) continue;
         RenderSettings candidate = held;
         candidate.denoise = name;
-        const auto found = forecastDenoised(candidate, plain.seconds);
+        const auto found = forecastDenoised(candidate, std::max(plain.seconds, goal_.seconds));
         if (!found) return false;
         // At equal time the samples' noise would take the square of its ratio longer to fall as far.
         std::vector<double> gains;

@@ -135,7 +135,7 @@ FilmPart readFilmPart(const std::string& path) {
     const bool isDenoised = std::ranges::count(layers, "raw", &Layer::name) > 0;
     part.mean = layer(isDenoised ? "raw" : "", 3);
     part.variance = layer(isDenoised ? "raw-variance" : "variance", 3);
-    if (isDenoised) setValue(part.metadata, "denoise", kNoDenoiser);
+    setValue(part.metadata, "denoise", kNoDenoiser);
     part.samples = layer("samples", 1);
     return part;
 }

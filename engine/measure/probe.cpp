@@ -51,12 +51,16 @@ Subject makeSubject(Device& device, Scene scene, RenderSettings settings, const 
     return subject;
 }
 
-/// Whether all seeds so far say that the candidate takes `factor` times as long as the first one to the same noise.
+/// Whether all seeds so far say that the candidate, bias apart, takes `factor` times as long as the first one to the same
+/// error.
 bool isHopeless(const Probe& first, const Probe& candidate, double factor) {
-    for (size_t seed = 0; seed < candidate.sampleSeconds.size(); ++seed)
-        if (candidate.squaredErrors[seed] * candidate.sampleSeconds[seed] <=
-            factor * std::max(0.0, first.squaredErrors[seed]) * first.sampleSeconds[seed])
-            return false;
+    const double bias = candidate.biasSquared();
+    for (size_t seed = 0; seed < candidate.sampleSeconds.size(); ++seed) {
+        const double error = first.squaredErrors[seed];
+        const bool isMuchSlower = (candidate.squaredErrors[seed] - bias) * candidate.sampleSeconds[seed] >
+                                  factor * error * first.sampleSeconds[seed];
+        if (error <= 0.0 || !isMuchSlower) return false;
+    }
     return true;
 }
 
@@ -97,8 +101,10 @@ std::optional<std::vector<Probe>> probe(Device& device, const Scene& scene, std:
     }
     for (int seed = 0; seed < plan.seeds; ++seed) {
         if (seed == plan.seedsToHope)
-            for (size_t i = 1; i < subjects.size(); ++i)
+            for (size_t i = 1; i < subjects.size(); ++i) {
+                subjects[i].probe.bias = subjects[i].images.estimate(reference.image, weights);
                 if (isHopeless(subjects[0].probe, subjects[i].probe, plan.hopeless)) subjects[i].renderer.reset();
+            }
         for (size_t i = 0; i < subjects.size(); ++i) {
             Subject& subject = subjects[seed % 2 == 0 ? i : subjects.size() - 1 - i];
             if (!subject.renderer) continue;

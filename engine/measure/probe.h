@@ -42,8 +42,8 @@ struct ProbePlan {
     uint32_t samples = 1;
     int seeds = 4;
     uint32_t firstSeed = 0;
-    /// Seeds after which a candidate is measured no longer where its squared error times its time has been more than
-    /// `hopeless` times the first candidate's each time; then its figures are of these seeds.
+    /// Seeds after which a candidate is measured no longer where its squared error without bias, times its time, has been
+    /// more than `hopeless` times the first candidate's each time; then its figures are of these seeds.
     int seedsToHope = 2;
     double hopeless = std::numeric_limits<double>::infinity();
 };

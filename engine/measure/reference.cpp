@@ -114,14 +114,20 @@ const Bitmap* findLayer(const std::vector<Layer>& layers, std::string_view name)
     return found != layers.end() ? &found->bitmap : nullptr;
 }
 
-/// The variance of the mean by the layers of raylab render; 0 everywhere without them.
-void readVariance(const fs::path& path, Reference& reference) {
+/// By the layers of raylab render: the variance of the mean, 0 everywhere without them; and of a denoised picture the
+/// one before, which has no bias.
+void readLayers(const fs::path& path, Reference& reference) {
     ReferenceImage& image = reference.image;
     image.varianceOfMean = Bitmap(image.mean.width, image.mean.height, image.mean.channels);
     if (path.extension() != ".exr") return;
     Metadata metadata;
     const std::vector<Layer> layers = readExrLayers(path, &metadata);
-    const Bitmap* variance = findLayer(layers, "variance");
+    const Bitmap* raw = findLayer(layers, "raw");
+    if (raw != nullptr) {
+        requireSameShape(*raw, image.mean);
+        image.mean = *raw;
+    }
+    const Bitmap* variance = findLayer(layers, raw != nullptr ? "raw-variance" : "variance");
     const Bitmap* samples = findLayer(layers, "samples");
     if (variance == nullptr || samples == nullptr) return;
     requireSameShape(*variance, image.mean);
@@ -166,7 +172,7 @@ Reference readReference(const fs::path& path, int width, int height) {
         throw Error(path.string() + ": has " + std::to_string(mean.width) + " x " + std::to_string(mean.height) +
                     " pixels, the chart's images have " + std::to_string(width) + " x " + std::to_string(height) +
                     "; give --width and --height of the reference");
-    readVariance(path, reference);
+    readLayers(path, reference);
     reference.relativeError = relativeErrorOf(reference.image);
     reference.origin = path.string();
     return reference;

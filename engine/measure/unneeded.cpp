@@ -137,6 +137,8 @@ std::optional<std::vector<LightShare>> lightShares(Device& device, const Scene& 
     settleEnvironment(settled, settings);
     RenderSettings alone = settings;
     alone.spp = kSamples;
+    alone.adaptive = false;
+    alone.denoise = kNoDenoiser;
     const double whole = meanOfPixels(reference.image.mean);
     std::vector<LightShare> shares;
     for (const LitScene& lit : scenesOfOneLight(settled)) {

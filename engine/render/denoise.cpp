@@ -41,14 +41,15 @@ glm::vec4 guideAt(const DenoiseGuides& guides, size_t pixel) {
 
 /// Light over colour, and the variance of the luminance of that mean, with channels that err together.
 glm::vec4 lightAt(const FilmImage& film, size_t pixel, glm::vec3 colour) {
-    const float count = std::max(film.samples.pixels[pixel], 1.0f);
+    const float count = film.samples.pixels[pixel];
+    if (count <= 0.0f) return {0.0f, 0.0f, 0.0f, shared::kDenoiseEmpty};
     float light[3], deviation[3];
     for (int c = 0; c < 3; ++c) {
         light[c] = film.mean.pixels[3 * pixel + c] / colour[c];
         deviation[c] = std::sqrt(film.variance.pixels[3 * pixel + c] / count) / colour[c];
     }
     const auto ofLuminance = static_cast<float>(luminance(deviation));
-    return {light[0], light[1], light[2], ofLuminance * ofLuminance};
+    return {light[0], light[1], light[2], count < kFewSamples ? shared::kDenoiseUnknown : ofLuminance * ofLuminance};
 }
 
 TexelBuffer makeTexels(Device& device, const char* name, std::span<const glm::vec4> texels, VkBufferUsageFlags usage) {

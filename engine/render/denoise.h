@@ -23,7 +23,8 @@ struct DenoiseGuides {
 
 /// Takes noise out of a picture by an edge-avoiding a-trous wavelet over its light, which is divided by the surfaces'
 /// colour meanwhile, within the bounds that the variance of the pixels sets: shaders/film/denoise_main.glsl. What is
-/// seen in mirrors and through glass has no guides. Biased, and less so with every sample.
+/// seen in mirrors and through glass has no guides. A pixel without samples gets the light of its surface around. Biased, and
+/// less so with every sample.
 class Denoiser {
 public:
     /// `mostPixels`: of a strip of rows that is filtered at a time; also bounded by the device's buffers.

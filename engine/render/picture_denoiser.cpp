@@ -10,6 +10,8 @@ namespace {
 
 /// First hits of a pixel that its guides are means of: half as many as its samples, between these.
 constexpr int64_t kLeastGuideSamples = 2, kMostGuideSamples = 8;
+/// Of larger pictures the views' films are not kept for the next one.
+constexpr int64_t kKeptPixels = int64_t{1} << 21;
 constexpr std::array kGuideViews = {"albedo", "normal", "depth"};
 
 /// As the picture sees it, by the cheapest kernel.
@@ -25,23 +27,26 @@ RenderSettings viewSettings(RenderSettings settings, const char* view) {
 
 }  // namespace
 
-PictureDenoiser::PictureDenoiser(Device& device) : device_(device), denoiser_(device) {}
+PictureDenoiser::PictureDenoiser(Device& device) : device_(device), denoiser_(device), views_(kGuideViews.size()) {}
 
 PictureDenoiser::~PictureDenoiser() = default;
 
 bool PictureDenoiser::renderGuides(const std::shared_ptr<PreparedScene>& prepared, const RenderSettings& settings,
                                    const std::function<bool()>& stop) {
+    guideSeconds_ = 0.0;
     std::array<Bitmap, kGuideViews.size()> views;
     for (size_t i = 0; i < kGuideViews.size(); ++i) {
         const RenderSettings own = viewSettings(settings, kGuideViews[i]);
-        if (i == views_.size())
-            views_.push_back(std::make_unique<Renderer>(device_, prepared, own));
+        std::unique_ptr<Renderer>& view = views_[i];
+        if (view)
+            view->restart(own, prepared->camera);
         else
-            views_[i]->restart(own, prepared->camera);
-        while (views_[i]->step())
+            view = std::make_unique<Renderer>(device_, prepared, own);
+        while (view->step())
             if (stop()) return false;
-        views[i] = views_[i]->snapshot().mean;
-        deviceSeconds_ += views_[i]->times().device;
+        views[i] = view->snapshot().mean;
+        guideSeconds_ += view->times().device;
+        if (settings.width * settings.height > kKeptPixels) view.reset();
     }
     guides_ = {std::move(views[0]), std::move(views[1]), std::move(views[2])};
     hasGuides_ = true;
@@ -50,11 +55,8 @@ bool PictureDenoiser::renderGuides(const std::shared_ptr<PreparedScene>& prepare
 
 std::optional<Bitmap> PictureDenoiser::filter(const FilmImage& film, const std::shared_ptr<PreparedScene>& prepared,
                                               const RenderSettings& settings, const std::function<bool()>& stop) {
-    deviceSeconds_ = 0.0;
     if (!hasGuides_ && !renderGuides(prepared, settings, stop)) return std::nullopt;
-    std::optional<Bitmap> picture = denoiser_.filter(film, guides_, stop);
-    deviceSeconds_ += denoiser_.deviceSeconds();
-    return picture;
+    return denoiser_.filter(film, guides_, stop);
 }
 
 }  // namespace raylab

@@ -22,8 +22,8 @@ public:
                                  const RenderSettings& settings, const std::function<bool()>& stop);
     /// Another camera, size or scene.
     void forgetGuides() { hasGuides_ = false; }
-    /// The device's time for guides and filter of the last picture; guides that were kept take none.
-    double deviceSeconds() const { return deviceSeconds_; }
+    /// The device's time for guides and filter of the last picture, also where the guides were kept from the one before.
+    double deviceSeconds() const { return guideSeconds_ + denoiser_.deviceSeconds(); }
 
 private:
     bool renderGuides(const std::shared_ptr<PreparedScene>& prepared, const RenderSettings& settings,
@@ -34,7 +34,7 @@ private:
     std::vector<std::unique_ptr<Renderer>> views_;  ///< of the guides, in their order
     DenoiseGuides guides_;
     bool hasGuides_ = false;
-    double deviceSeconds_ = 0.0;
+    double guideSeconds_ = 0.0;
 };
 
 }  // namespace raylab

@@ -288,11 +288,15 @@ bool Renderer::step() {
     return passFirst_ < static_cast<uint64_t>(settings_.spp);
 }
 
+bool Renderer::denoises() const {
+    return settings_.denoise != kNoDenoiser && !findIntegrator(settings_.integrator).isView;
+}
+
 FilmImage Renderer::develop(const std::function<bool()>& stop) {
     FilmImage image = snapshot();
     times_.denoise = 0.0;
     times_.denoiseDevice = 0.0;
-    if (settings_.denoise == kNoDenoiser || findIntegrator(settings_.integrator).isView) return image;
+    if (!denoises()) return image;
     const Stopwatch watch;
     if (!denoiser_) denoiser_ = std::make_unique<PictureDenoiser>(device_);
     if (auto picture = denoiser_->filter(image, prepared_, settings_, stop)) image.denoised = std::move(*picture);

@@ -18,7 +18,7 @@ struct RenderTimes {
     double render = 0.0;
     double device = 0.0;
     double denoise = 0.0;        ///< wall time of the last develop(), beyond reading the film
-    double denoiseDevice = 0.0;  ///< the device's own of it
+    double denoiseDevice = 0.0;  ///< the device's own for that picture, guides included that were kept from the one before
     double longestDispatch = 0.0;
 };
 
@@ -63,6 +63,8 @@ public:
     uint64_t pixelSamples() const { return static_cast<uint64_t>(pixelSamples_); }
 
     FilmImage snapshot() { return film_.read(device_); }
+    /// Whether develop() takes out noise: the settings ask for it and the integrator shows no view.
+    bool denoises() const;
     /// The same, and denoised where the settings ask for it and the integrator shows no view; not so where `stop`, asked
     /// between dispatches, says to leave off.
     FilmImage develop(const std::function<bool()>& stop = [] { return false; });

@@ -4,7 +4,7 @@
 // so the variance is that of its own samples instead of a history's. The more samples, the less is filtered.
 #include "lib/sampling.glsl"
 
-layout(set = 0, binding = kBindDenoiseLight) uniform samplerBuffer lightTexels;  // light over colour; variance of its luminance
+layout(set = 0, binding = kBindDenoiseLight) uniform samplerBuffer lightTexels;  // light over colour; variance of its luminance, or kDenoiseUnknown, kDenoiseEmpty
 layout(set = 0, binding = kBindDenoiseGuides) uniform samplerBuffer guideTexels;  // mean normal, mean depth of the first hits
 layout(set = 0, binding = kBindDenoiseResult, std430) writeonly buffer ResultBlock { vec4 result[]; };
 layout(push_constant) uniform PushBlock { DenoisePush push; };
@@ -40,15 +40,21 @@ float surfaceDistance(vec4 a, vec4 b, float slope) {
 
 // Binomial mean of the variances of 3 x 3 pixels: that of one pixel is noisy itself.
 float smoothVariance(ivec2 p) {
-    float sum = 0.0;
+    float sum = 0.0, weights = 0.0;
     for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            sum += float((2 - abs(x)) * (2 - abs(y))) / 16.0 * lightAt(clampToStrip(p + ivec2(x, y))).w;
-    return sum;
+        for (int x = -1; x <= 1; ++x) {
+            float variance = lightAt(clampToStrip(p + ivec2(x, y))).w;
+            if (variance < 0.0) continue;
+            float weight = float((2 - abs(x)) * (2 - abs(y)));
+            sum += weight * variance;
+            weights += weight;
+        }
+    return sum / max(weights, 1.0);
 }
 
 vec4 estimate(ivec2 p) {
     vec4 light = lightAt(p), guide = guideAt(p);
+    if (light.w != kDenoiseUnknown) return light;
     vec2 slope = depthSlope(p, guide.w);
     float weights = 0.0, mean = 0.0, square = 0.0;
     int reach = int(kDenoiseWindow);
@@ -56,8 +62,10 @@ vec4 estimate(ivec2 p) {
         for (int x = -reach; x <= reach; ++x) {
             ivec2 q = p + ivec2(x, y);
             if (!isInside(q)) continue;
+            vec4 other = lightAt(q);
+            if (other.w == kDenoiseEmpty) continue;
             float weight = exp(-surfaceDistance(guide, guideAt(q), dot(slope, abs(vec2(x, y)))));
-            float value = luminance(lightAt(q).xyz);
+            float value = luminance(other.xyz);
             weights += weight;
             mean += weight * value;
             square += weight * value * value;
@@ -70,7 +78,8 @@ vec4 filtered(ivec2 p) {
     vec4 light = lightAt(p), guide = guideAt(p);
     vec2 slope = depthSlope(p, guide.w) * float(push.spacing);
     float own = luminance(light.xyz);
-    float lightScale = 1.0 / (kSigmaLight * sqrt(smoothVariance(p)) + kTiny);
+    // What has no light takes that of its surface.
+    float lightScale = light.w == kDenoiseEmpty ? 0.0 : 1.0 / (kSigmaLight * sqrt(smoothVariance(p)) + kTiny);
     const float kernel[3] = float[3](0.375, 0.25, 0.0625);  // of a cubic B-spline
     float weights = 0.0;
     vec4 sum = vec4(0.0);
@@ -80,13 +89,14 @@ vec4 filtered(ivec2 p) {
             ivec2 q = p + ivec2(x, y) * int(push.spacing);
             if (!isInside(q)) continue;
             vec4 other = lightAt(q);
+            if (other.w == kDenoiseEmpty) continue;
             float distance = surfaceDistance(guide, guideAt(q), dot(slope, abs(vec2(x, y)))) +
                              abs(luminance(other.xyz) - own) * lightScale;
             float weight = kernel[abs(x)] * kernel[abs(y)] * exp(-distance);
             weights += weight;
             sum += vec4(other.xyz * weight, other.w * weight * weight);
         }
-    return vec4(sum.xyz / weights, sum.w / (weights * weights));
+    return weights > 0.0 ? vec4(sum.xyz / weights, sum.w / (weights * weights)) : light;
 }
 
 void main() {

@@ -10,6 +10,9 @@ RAYLAB_CONST uint kDenoiseLevels = 5;  // of the wavelet: taps 1, 2, 4, 8 and 16
 RAYLAB_CONST uint kDenoiseReach = 2;   // taps to each side
 // Where variances come from the picture, the window reaches so far to each side.
 RAYLAB_CONST uint kDenoiseWindow = 3;
+// In the place of a variance: one to be taken from the pixels around, and a pixel without light to go by.
+RAYLAB_CONST float kDenoiseUnknown = -1.0;
+RAYLAB_CONST float kDenoiseEmpty = -2.0;
 
 // What a dispatch does with its pixels.
 RAYLAB_CONST uint kDenoiseEstimate = 0;  // variance of the light from that of the pixels around

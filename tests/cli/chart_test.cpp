@@ -198,6 +198,21 @@ TEST_F(Advise, FindsADepthAndWritesAPreset) {
         << text("err");
     EXPECT_EQ(json("r.json")["settings"]["depth"], std::stoi(advice["steps"][0]["chosen"].get<std::string>()));
     EXPECT_EQ(json("r.json")["settings"]["spp"], advice["forecast"]["samples"]);
+}
+
+/// A search may begin with adaptive samples and a denoiser, which the lights' shares and few samples do without.
+TEST_F(Advise, BeginsWhereTheUserIs) {
+    ASSERT_EQ(runProgram("advise cornell --width 16 --height 16 --depth 2 --adaptive --denoise atrous --target-error 0.3 "
+                         "--only sampler -o p.json --json a.json --quiet"),
+              0)
+        << text("err");
+    const Json advice = json("a.json");
+    for (const Json& option : advice["steps"][0]["options"]) EXPECT_NE(option["value"], "stratified");
+    EXPECT_EQ(json("p.json")["settings"]["adaptive"], true);
+    EXPECT_EQ(json("p.json")["settings"]["denoise"], "atrous");
+}
+
+TEST_F(Advise, RefusesWhatIsNoGoal) {
     expectProgramRefuses("advise cornell", "give either --target-error");
     expectProgramRefuses("advise cornell --target-error 0.1 --time-limit 3", "give either --target-error");
     expectProgramRefuses("advise cornell --target-error 0.1 --only width", "--only");

@@ -89,6 +89,29 @@ TEST_F(Denoise, TakesTheNoiseOfSingleSamples) {
     EXPECT_LT(relativeError(denoised(noisy), noisy.truth, everywhere), 0.3 / 6.0);
 }
 
+/// A pixel with few samples among others does not make these any smoother than their own variance says.
+TEST_F(Denoise, EstimatesOnlyWhatHasFewSamples) {
+    const auto slope = [](int x, int y) { return 0.1f + 0.01f * static_cast<float>(x * y % 17); };
+    Noisy noisy(slope, flat, 0.0f, 64.0f);
+    const int x0 = kWidth / 2, y0 = kHeight / 2;
+    *noisy.film.samples.at(x0, y0) = 2.0f;
+    const auto isFar = [&](int x, int y) { return std::max(std::abs(x - x0), std::abs(y - y0)) > 5; };  // a pixel a level
+    EXPECT_LT(relativeError(denoised(noisy), noisy.truth, isFar), 1e-6);
+}
+
+/// Pixels without samples get what their surface has around them, and give nothing.
+TEST_F(Denoise, FillsWhatHasNoSamples) {
+    Noisy noisy(flat, checkered, 0.0f, 64.0f);
+    const auto isHole = [](int x, int y) { return x > 20 && x < 24 && y > 20 && y < 24; };
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            if (isHole(x, y)) {
+                *noisy.film.samples.at(x, y) = 0.0f;
+                std::fill_n(noisy.film.mean.at(x, y), 3, 0.0f);
+            }
+    EXPECT_LT(relativeError(denoised(noisy), noisy.truth, everywhere), 1e-5);
+}
+
 /// Nothing runs over an edge between surfaces: neither where normals differ nor where depths do, however noisy.
 TEST_F(Denoise, StopsAtEdgesOfTheFirstHits) {
     const auto isLeft = [](int x) { return x < kWidth / 2; };

@@ -80,12 +80,13 @@ std::string summary(const RenderOptions& options, const RenderSettings& settings
                   options.output.c_str(), r.samples, r.totalSeconds, r.importSeconds, r.times.build, r.times.upload,
                   r.times.compile, r.times.render, raysPerSecond(r) * 1e-6);
     std::string line = text;
-    if (r.times.denoise > 0.0) {
+    const bool isDenoised = !r.image.denoised.pixels.empty();
+    if (isDenoised) {
         std::snprintf(text, sizeof(text), "  denoised in %.2f s", r.times.denoise);
         line += text;
     }
     if (r.samples >= 2) {
-        std::snprintf(text, sizeof(text), r.times.denoise > 0.0 ? ", noise before %.2f%%" : "  noise %.2f%%",
+        std::snprintf(text, sizeof(text), isDenoised ? ", noise before %.2f%%" : "  noise %.2f%%",
                       100.0 * r.image.estimatedRelativeError);
         line += text;
     }
@@ -116,6 +117,7 @@ ExitCode render(RenderOptions options) {
     for (const std::string& warning : scene.warnings) logWarning(warning);
     RenderResult result = renderDespiteLosses(device, scene, settings, options.quiet);
     result.importSeconds = importSeconds;
+    if (result.image.denoised.pixels.empty()) settings.denoise = kNoDenoiser;  // of a view, or one that was stopped
     writeRender(options.output, result, settings, resultMetadata(options, settings, device.get(), result));
     result.totalSeconds = total.seconds();
     if (!options.json.empty()) writeJson(options.json, resultJson(options, settings, device, result));

@@ -68,14 +68,31 @@ std::string renderLoop(Renderer& renderer, const RenderSettings& settings, bool 
     return "samples";
 }
 
+/// The picture as the settings want it. Who has asked for an end, or asks for it now, gets it as it is, and so does who
+/// wants it denoised where that fails. `last`: gets it before it is denoised.
+FilmImage developPicture(Renderer& renderer, const RenderSettings& settings, std::string& stoppedBy,
+                         std::optional<RenderResult>& last) {
+    if (stoppedBy == "interrupt" || settings.denoise == kNoDenoiser) return renderer.snapshot();
+    const InterruptGuard guard;
+    last = resultOf(renderer, renderer.snapshot());
+    try {
+        FilmImage image = renderer.develop(InterruptGuard::isInterrupted);
+        if (InterruptGuard::isInterrupted()) stoppedBy = "interrupt";
+        return image;
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        logWarning(std::string(error.what()) + "; the picture is not denoised");
+        return last->image;
+    }
+}
+
 /// `last`: gets what the last look at the noise has seen, lest a loss of the device takes all.
 RenderResult renderOnce(Device& device, const Scene& scene, const RenderSettings& settings, bool quiet,
                         std::optional<RenderResult>& last) {
     Renderer renderer(device, scene, settings);
-    const std::string stoppedBy = renderLoop(renderer, settings, quiet, last);
-    // Who has asked for an end, or asks for it now, gets the picture as it is.
-    const InterruptGuard guard;
-    FilmImage image = stoppedBy == "interrupt" ? renderer.snapshot() : renderer.develop(InterruptGuard::isInterrupted);
+    std::string stoppedBy = renderLoop(renderer, settings, quiet, last);
+    FilmImage image = developPicture(renderer, settings, stoppedBy, last);
     RenderResult result = resultOf(renderer, std::move(image));
     result.stoppedBy = stoppedBy;
     return result;

@@ -22,8 +22,10 @@ bool isRendering(const RenderStatus& status) { return status.phase == RenderPhas
 /// Neither builds nor compiles, which would take time from the other.
 bool isQuiet(const RenderStatus& status) { return status.phase != RenderPhase::preparing; }
 
-void addPoint(Comparison::Side& side, double seconds, const std::optional<double>& error) {
+/// Pictures of another film, or denoised where those before were not, begin a new line.
+void addPoint(Comparison::Side& side, double seconds, bool isDenoised, const std::optional<double>& error) {
     side.error = error;
+    if (std::exchange(side.isDenoised, isDenoised) != isDenoised) side.history.clear();
     if (!error || *error <= 0.0 || seconds <= 0.0) return;
     if (!side.history.empty() && seconds < side.history.back().seconds) side.history.clear();
     if (side.history.size() >= kMostPoints || (!side.history.empty() && seconds == side.history.back().seconds)) return;
@@ -137,8 +139,8 @@ void Comparison::startJob() {
 }
 
 void Comparison::adopt(CompareResult&& result) {
-    addPoint(a_, result.secondsA, result.errorA);
-    addPoint(b_, result.secondsB, result.errorB);
+    addPoint(a_, result.secondsA, result.isDenoisedA, result.errorA);
+    addPoint(b_, result.secondsB, result.isDenoisedB, result.errorB);
     result_ = std::move(result);
 }
 

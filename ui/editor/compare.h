@@ -31,6 +31,7 @@ public:
         SampleClock clock;
         std::optional<double> error;
         std::vector<ErrorPoint> history;
+        bool isDenoised = false;  ///< what the history is of
     };
 
     CompareMode mode() const { return mode_; }

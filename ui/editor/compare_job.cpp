@@ -194,6 +194,8 @@ CompareResult comparePictures(const CompareInput& input) {
     result.numberB = input.b->number;
     result.secondsA = input.a->seconds;
     result.secondsB = input.b->seconds;
+    result.isDenoisedA = !input.a->film->denoised.pixels.empty();
+    result.isDenoisedB = !input.b->film->denoised.pixels.empty();
     result.width = input.a->width;
     result.height = input.a->height;
     if (input.a->width != input.b->width || input.a->height != input.b->height ||

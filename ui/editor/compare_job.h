@@ -56,6 +56,7 @@ struct CompareResult {
     CompareMode mode = CompareMode::off;
     uint64_t numberA = 0, numberB = 0;  ///< of the pictures
     double secondsA = 0.0, secondsB = 0.0;
+    bool isDenoisedA = false, isDenoisedB = false;
     std::string mismatch;  ///< why there is nothing else; empty where there is
     uint32_t width = 0, height = 0;
     std::vector<uint32_t> texels;  ///< none where the mode is no difference

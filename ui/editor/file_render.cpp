@@ -68,7 +68,8 @@ void renderOnce(Device& device, const Scene& scene, const RenderSettings& settin
                  (settings.targetError > 0.0 && renderer.completeSamples() > 1 &&
                   renderer.snapshot().estimatedRelativeError <= settings.targetError);
     }
-    writeImage(path, renderer.develop([&] { return control.isCancelled(); }), settings, renderer.sceneDiagonal());
+    const FilmImage image = renderer.develop([&] { return control.isCancelled(); });
+    if (!control.isCancelled()) writeImage(path, image, settings, renderer.sceneDiagonal());
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::shared_ptr<Picture> PictureFeed::make(Renderer& renderer, const RenderSetti
     if (renderer.completeSamples() > 1) noise_ = film->estimatedRelativeError;
     auto picture = std::make_shared<Picture>(developPicture(*film, backdrop_, settings, renderer.sceneDiagonal()));
     picture->film = film;
-    picture->seconds = renderer.times().render;
+    picture->seconds = renderer.times().render + renderer.times().denoiseDevice;
     picture->camera = renderer.prepared().camera;
     picture->samples = renderer.completeSamples();
     picture->number = ++count_;

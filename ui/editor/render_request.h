@@ -60,7 +60,7 @@ struct Picture {
     Camera camera;                 ///< that it was seen by
     uint32_t samples = 0;          ///< that every pixel has; 0 where some have none yet
     uint64_t number = 0;           ///< counts pictures
-    double seconds = 0.0;          ///< of rendering that are in it
+    double seconds = 0.0;          ///< of rendering, and of the device for taking the noise out, that are in it
     std::shared_ptr<const FilmImage> film;  ///< that it shows; pixels without samples are black there
     std::shared_ptr<const HitMap> hits;     ///< nullptr where it was not asked for
 };

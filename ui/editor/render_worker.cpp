@@ -152,7 +152,8 @@ private:
         if (touches(kEditKernel)) return clearError(), restart("Compiling the kernel");
         if (touches(kEditCamera) || isOtherView(before, request)) return clearError(), restart("");
         if (touches(kEditBudget)) resume();
-        if (touches(kEditFilm) || request.wantsHits != before.wantsHits) publish();
+        const bool isDevelopedAnew = request.moving != before.moving && request.settings.denoise != kNoDenoiser;
+        if (touches(kEditFilm) || request.wantsHits != before.wantsHits || isDevelopedAnew) publish();
     }
 
     /// Another tracer is wanted: it gets its own chance.
@@ -325,11 +326,19 @@ private:
         }
     }
 
+    /// In a turn of its own where it takes the device's time.
+    std::shared_ptr<Picture> makePicture() {
+        const auto isAskedFor = [this] { return session_.hasRequest(); };
+        if (!renderer_->denoises()) return pictures_.make(*renderer_, wanted_.settings, isAskedFor);
+        const RenderTurns::Turn turn(*session_.share().turns);
+        return pictures_.make(*renderer_, wanted_.settings, isAskedFor);
+    }
+
     void publish() {
         const Stopwatch watch;
-        renderer_->setDenoiser(wanted_.moving || divisor_ > 1 ? kNoDenoiser : wanted_.settings.denoise);
-        const std::shared_ptr<Picture> picture =
-            pictures_.make(*renderer_, wanted_.settings, [this] { return session_.hasRequest(); });
+        const bool isRough = wanted_.moving || divisor_ > 1 || renderer_->completeSamples() == 0;
+        renderer_->setDenoiser(isRough ? kNoDenoiser : wanted_.settings.denoise);
+        const std::shared_ptr<Picture> picture = makePicture();
         picture->hits = lookBehind(picture->width, picture->height);
         session_.publish(picture, [&](RenderStatus& status) { describeProgress(picture->film.get(), status); });
         sinceStatus_.restart();

@@ -92,7 +92,7 @@ void printUnneeded(const AdviceReport& report) {
 }  // namespace
 
 std::string gainText(const Interval& gain) {
-    if (gain.value == 0.0) return "its bias is too large";
+    if (gain.value == 0.0) return "does not come to the goal in that time";
     if (std::isinf(gain.value)) return "reaches the error, which the former does not";
     return "x " + shortNumber(gain.value) + " (" + shortNumber(gain.low) + " to " + shortNumber(gain.high) + ")";
 }
@@ -136,6 +136,11 @@ nlohmann::ordered_json adviceJson(const AdviceReport& report) {
 nlohmann::ordered_json presetJson(const AdviceReport& report) {
     nlohmann::ordered_json settings = nlohmann::ordered_json::object();
     const nlohmann::ordered_json all = settingsJson(report.advice.settings);
+    for (const Setting<RenderSettings>& setting : renderSettingsTable()) {
+        const bool isOfTheMachine = setting.name == "device" || setting.name == "validation";
+        const bool isDefault = getSetting(setting, report.advice.settings) == getSetting(setting, RenderSettings{});
+        if (!isDefault && !isOfTheMachine && setting.name != "seed") settings[setting.name] = all[setting.name];
+    }
     for (const AdviceStep& step : report.advice.steps) settings[step.setting] = all[step.setting];
     settings["spp"] = report.advice.settings.spp;
     return {{"schema", "raylab.preset/1"},
