@@ -1,5 +1,6 @@
 #include "ui/editor/render_worker.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -208,6 +209,7 @@ private:
         caster_.forget();
         renderer_ = std::move(renderer);
         prepared_ = std::move(prepared);
+        malloc_trim(0);  // what smaller pieces of the scene before have left
         isPrepared_ = true;
         preparedEnvironment_ = scene.environment;
         describe();
