@@ -205,7 +205,9 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, s
     const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), coordinate.setting);
     std::vector<RenderSettings> candidates(values.size(), held);
     for (size_t i = 0; i < values.size(); ++i) setSetting(setting, candidates[i], values[i]);
-    if (!lookAtHeld(held, coordinate.setting == std::string_view(kAdaptive))) return false;
+    const bool isAdaptive = coordinate.setting == std::string_view(kAdaptive);
+    if (!lookAtHeld(held, isAdaptive)) return false;
+    if (isAdaptive && wantedSamples_ < kLeastAdaptive) return true;  // its pilot would be more than the whole
     const auto probes = measure(candidates, samplesOf(coordinate), kProbeSeeds);
     if (!probes) return false;
     const double error = errorFor(probes->front());
@@ -416,6 +418,15 @@ bool advise(Device& device, const Scene& scene, const RenderSettings& base, cons
                             std::ranges::all_of(advice.steps, [](const AdviceStep& s) { return s.chosen == s.held; });
     const std::optional<Forecast> standard = isAsBefore ? forecast : search.forecast(base);
     if (!standard) return false;
+    // Each step's gain is an estimate, and few samples can be too few for what many would gain by.
+    const bool isByError = goal.relativeError > 0.0;
+    const bool isNoGain = isByError ? forecast->seconds > standard->seconds
+                                    : forecast->relativeError > standard->relativeError;
+    if (standard->samples > 0 && isNoGain) {
+        settings = base;
+        forecast = standard;
+        advice.isStandard = true;
+    }
     advice.settings.spp = forecast->samples;
     progress("verification");
     const std::optional<Achieved> achieved = search.run(advice.settings);

@@ -56,6 +56,8 @@ struct Advice {
     std::vector<AdviceStep> steps;
     Forecast forecast;
     Forecast standard;  ///< of the settings that the search began with; samples 0: they never reach the error
+    /// What the steps chose is forecast to be no better than that, so that those settings are advised.
+    bool isStandard = false;
     Achieved achieved;
 };
 

@@ -13,7 +13,7 @@ namespace {
 class DeviceSubject : public BenchSubject {
 public:
     DeviceSubject(Device& device, const Scene& scene, const RenderSettings& settings, std::string variation)
-        : settings_(resolveForDevice(settings, device.description())),
+        : settings_(resolveForDevice(settings, device.description(), scene)),
           variation_(std::move(variation)),
           caster_(device, scene, settings_) {}
 

@@ -91,4 +91,9 @@ RenderSettings resolveForDevice(RenderSettings settings, const DeviceDescription
     return settings;
 }
 
+RenderSettings resolveForDevice(RenderSettings settings, const DeviceDescription& device, const Scene& scene) {
+    if (settings.layout == kAutoLayout && isTiny(scene)) settings.layout = kTinyLayout;
+    return resolveForDevice(std::move(settings), device);
+}
+
 }  // namespace raylab

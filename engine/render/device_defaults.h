@@ -21,7 +21,9 @@ std::string layoutForDevice(const DeviceDescription& device);
 /// no such layout, where deviceDefaultsFile() is empty, and where it cannot be written.
 void recordLayout(const DeviceDescription& device, std::string_view layout);
 
-/// The settings with "auto" replaced by what it stands for on this device.
+/// The settings with "auto" replaced by what it stands for on this device, for this scene: bvh2 where layoutForScene()
+/// says so. Without a scene, for one that is not tiny.
 RenderSettings resolveForDevice(RenderSettings settings, const DeviceDescription& device);
+RenderSettings resolveForDevice(RenderSettings settings, const DeviceDescription& device, const Scene& scene);
 
 }  // namespace raylab

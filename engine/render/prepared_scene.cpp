@@ -26,7 +26,7 @@ bool takesPunctualLightsAlone(const RenderSettings& settings) {
 void buildWith(std::string_view tracer, Device& device, const Scene& scene, const RenderSettings& settings,
                const BuildControl& control, PreparedScene& prepared) {
     prepared.tracer = makeTracer(tracer);
-    prepared.traceConfig = prepared.tracer->adapt(traceConfig(settings));
+    prepared.traceConfig = prepared.tracer->adapt(traceConfig(settings, scene));
     prepared.needs = analyseNeeds(scene, treePlanConfig(prepared.traceConfig));
     prepared.kernelNeeds = settings.needs == "full" ? shared::kNeedAll : prepared.needs.mask;
     prepared.tracer->build(device, scene, prepared.traceConfig, control);
@@ -99,7 +99,7 @@ PreparedScene prepareScene(Device& device, const Scene& scene, const RenderSetti
     warnOfDarkness(scene, settings);
     PreparedScene prepared;
     prepared.camera = chooseCamera(scene, settings.camera);
-    buildTracer(device, scene, resolveForDevice(settings, device.description()), control, prepared);
+    buildTracer(device, scene, resolveForDevice(settings, device.description(), scene), control, prepared);
     Stopwatch watch;
     readSettings(device, scene, settings, prepared);
     prepared.kernelNeeds |= needsOfLights(scene, prepared.lightConfig);

@@ -8,6 +8,7 @@
 #include "engine/render/tonemap.h"
 #include "engine/render/tracer.h"
 #include "engine/render/triangle_record.h"
+#include "engine/scene/bounds.h"
 
 namespace raylab {
 namespace {
@@ -48,7 +49,7 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"antialias", &S::antialias, "", "where samples lie in a pixel: by --filter; 1: all in the middle; 4: on a grid of four, in turn (--spp 4)", 0, 0, {"filter", "1", "4"}},
         {"tracer", &S::tracer, "", "how rays find triangles", 0, 0, tracerNames()},
         {"builder", &S::builder, "", "how the BVH over triangles is built", 0, 0, builderNames()},
-        {"layout", &S::layout, "", "how the BVH is laid out for the kernel; auto: what bench --tune found best on the device", 0, 0, layoutChoices()},
+        {"layout", &S::layout, "", "how the BVH is laid out for the kernel; auto: what bench --tune found best on the device, and bvh2 for 256 primitives and less", 0, 0, layoutChoices()},
         {"triangle", &S::triangle, "", "test of a ray and a triangle in the software tracers", 0, 0, triangleTestNames()},
         {"slab", &S::slab, "", "test of a ray and a box in the software tracers: padded for rounding and guarded against 0 times infinity, or neither", 0, 0, {"padded", "plain"}},
         {"offset", &S::offset, "", "of a ray's origin off the surface that it leaves: by bounds of the rounding errors, by units in the last place, or by offset-epsilon", 0, 0, {"error-bound", "ulp", "epsilon"}},
@@ -93,10 +94,15 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
     return table;
 }
 
-TraceConfig traceConfig(const RenderSettings& settings) {
+bool isTiny(const Scene& scene) {
+    return triangleCount(scene).instanced + quadricCount(scene).instanced <= kTinyPrimitives;
+}
+
+TraceConfig traceConfig(const RenderSettings& settings, const Scene& scene) {
     TraceConfig config;
     config.builder = settings.builder;
-    config.layout = settings.layout == kAutoLayout ? kDefaultLayout : settings.layout;
+    config.layout = settings.layout;
+    if (settings.layout == kAutoLayout) config.layout = isTiny(scene) ? kTinyLayout : kDefaultLayout;
     config.triangle = settings.triangle;
     config.paddedSlab = settings.slab == "padded";
     config.bvh.maxLeafSize = static_cast<int>(settings.leafSize);

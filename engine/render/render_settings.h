@@ -7,13 +7,17 @@
 
 #include "engine/core/settings.h"
 #include "engine/render/trace_data.h"
+#include "engine/scene/scene.h"
 
 namespace raylab {
 
-/// The layout that resolveForDevice() replaces by what is best on a device, and what it is where nothing is recorded.
 constexpr const char* kNoDenoiser = "none";
+/// The layout that resolveForDevice() replaces by what is best on a device, what it is where nothing is recorded, and
+/// what it is for a scene of so few primitives that their tests count for more than the nodes above them.
 constexpr std::string_view kAutoLayout = "auto";
 constexpr std::string_view kDefaultLayout = "bvh4b";
+constexpr std::string_view kTinyLayout = "bvh2";
+constexpr size_t kTinyPrimitives = 256;
 
 /// Every setting of a rendering with its default; renderSettingsTable() says the rest.
 struct RenderSettings {
@@ -87,7 +91,11 @@ struct RenderSettings {
 
 std::span<const Setting<RenderSettings>> renderSettingsTable();
 
-/// The settings that the trees of a software traversal are built by; kDefaultLayout where the layout is not resolved.
-TraceConfig traceConfig(const RenderSettings& settings);
+/// Whether a scene shows at most kTinyPrimitives.
+bool isTiny(const Scene& scene);
+
+/// The settings that the trees of a software traversal are built by; kTinyLayout or kDefaultLayout where the layout is not
+/// resolved.
+TraceConfig traceConfig(const RenderSettings& settings, const Scene& scene);
 
 }  // namespace raylab

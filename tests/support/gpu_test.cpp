@@ -27,7 +27,9 @@ Device& sharedDevice() {
 }
 
 RenderSettings smallImage(int64_t size, int64_t spp, int64_t depth) {
-    return stability::smallImage(RenderSettings{}, size, spp, depth);
+    RenderSettings settings;
+    settings.layout = kDefaultLayout;  // that large scenes have, however small a test's is
+    return stability::smallImage(settings, size, spp, depth);
 }
 
 std::optional<std::filesystem::path> sharedScene(const std::string& relativePath) {

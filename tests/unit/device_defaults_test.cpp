@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/render/device_defaults.h"
+#include "tests/support/scene_build.h"
 #include "tests/support/scratch_folder.h"
 
 namespace raylab {
@@ -63,7 +64,25 @@ TEST_F(DeviceDefaults, OnlyAutoIsReplaced) {
     EXPECT_EQ(resolveForDevice(settings, kDevice).layout, "bvh2q");
     settings.layout = "bvh2";
     EXPECT_EQ(resolveForDevice(settings, kDevice).layout, "bvh2");
-    EXPECT_EQ(traceConfig(RenderSettings{}).layout, kDefaultLayout);
+}
+
+/// A few primitives on show have a layout of their own: all of them count, however often a mesh is placed.
+TEST_F(DeviceDefaults, TinyScenesHaveTheirOwnLayout) {
+    recordLayout(kDevice, "bvh2q");
+    Scene scene;
+    const uint32_t mesh = support::addMesh(scene, support::box(0, glm::vec3(0.0f), glm::vec3(1.0f)));
+    const size_t ofBox = scene.meshes[mesh].triangles.size();
+    while (scene.instances.size() < kTinyPrimitives / ofBox) support::addInstance(scene, mesh, glm::mat4(1.0f));
+    RenderSettings settings;
+    EXPECT_EQ(traceConfig(settings, scene).layout, kTinyLayout);
+    EXPECT_EQ(resolveForDevice(settings, kDevice, scene).layout, kTinyLayout);
+    settings.layout = "bvh8q";
+    EXPECT_EQ(traceConfig(settings, scene).layout, "bvh8q");
+    EXPECT_EQ(resolveForDevice(settings, kDevice, scene).layout, "bvh8q");
+    support::addInstance(scene, mesh, glm::mat4(1.0f));
+    settings.layout = kAutoLayout;
+    EXPECT_EQ(traceConfig(settings, scene).layout, kDefaultLayout);
+    EXPECT_EQ(resolveForDevice(settings, kDevice, scene).layout, "bvh2q");
 }
 
 TEST_F(DeviceDefaults, BadFilesAreIgnoredWithAWarning) {

@@ -56,7 +56,7 @@ TEST_F(Needs, SpecialisedKernelRendersWhatTheFullOneDoes) {
     const Scene scene = variousScene();
     for (const RenderSettings& base : {smallImage(32, 8, 5), twoLevels(smallImage(32, 8, 5))}) {
         RenderSettings settings = base;
-        const uint32_t mask = analyseNeeds(scene, treePlanConfig(traceConfig(settings))).mask;
+        const uint32_t mask = analyseNeeds(scene, treePlanConfig(traceConfig(settings, scene))).mask;
         ASSERT_NE(mask, shared::kNeedAll) << "nothing left to leave out";
         ASSERT_EQ((mask & shared::kNeedInstancing) != 0u, settings.flattenLimit == 0);
         const FilmImage lean = renderFilm(device_, scene, settings);

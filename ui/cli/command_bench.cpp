@@ -20,7 +20,6 @@ ExitCode benchScenes(const BenchOptions& options) {
         options.compare.empty() ? std::vector<RecordedRow>() : readBenchJson(options.compare);
     RenderSettings settings = options.settings.resolve();
     Device device({settings.device, settings.validation});
-    settings = resolveForDevice(settings, device.description());
     const BenchPlan plan{.base = settings,
                          .variants = variantsOf(settings, options.vary),
                          .kinds = options.kinds,

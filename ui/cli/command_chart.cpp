@@ -33,10 +33,11 @@ struct ChartOptions {
 
 constexpr int kMostLevels = 24;
 
-ChartOrder orderOf(const ChartOptions& options, const RenderSettings& base, const DeviceDescription& device) {
+ChartOrder orderOf(const ChartOptions& options, const RenderSettings& base, const DeviceDescription& device,
+                   const Scene& scene) {
     return {.scene = options.scene,
             .folder = options.folder,
-            .configs = chartConfigs(base, options.request, device),
+            .configs = chartConfigs(base, options.request, device, scene),
             .seeds = options.seeds,
             .levels = options.levels,
             .firstSeed = static_cast<uint32_t>(base.seed),
@@ -69,7 +70,7 @@ ExitCode chartScene(const ChartOptions& options) {
     ReplaceableDevice device({base.device, base.validation});
     const Scene scene = importScene(scenePath(options.scene));
     for (const std::string& warning : scene.warnings) logWarning(warning);
-    const ChartOrder order = orderOf(options, base, device.get().description());
+    const ChartOrder order = orderOf(options, base, device.get().description(), scene);
     const InterruptGuard guard;
     std::optional<Progress> progress(options.quiet);
     bool isMeasuring = false;

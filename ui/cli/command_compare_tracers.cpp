@@ -120,8 +120,8 @@ RenderSettings sideSettings(const RenderSettings& common, const char* flag, cons
     return settings;
 }
 
-bool tracesByDefault(const RenderSettings& settings, const DeviceDescription& device) {
-    const RenderSettings standard = resolveForDevice({}, device);
+bool tracesByDefault(const RenderSettings& settings, const DeviceDescription& device, const Scene& scene) {
+    const RenderSettings standard = resolveForDevice({}, device, scene);
     return std::ranges::all_of(kTracingSettings, [&](const char* name) {
         const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), name);
         return getSetting(setting, settings) == getSetting(setting, standard);
@@ -129,12 +129,12 @@ bool tracesByDefault(const RenderSettings& settings, const DeviceDescription& de
 }
 
 CompareSide makeSide(const char* flag, const RenderSettings& settings, const std::vector<std::string>& parts,
-                     const DeviceDescription& device) {
+                     const DeviceDescription& device, const Scene& scene) {
     CompareSide side;
     side.peer = peerOf(flag, parts);
     for (const std::string& part : parts) side.text += (side.text.empty() ? "" : " ") + part;
-    side.settings = resolveForDevice(settings, device);
-    side.isDefault = side.peer.empty() && tracesByDefault(side.settings, device);
+    side.settings = resolveForDevice(settings, device, scene);
+    side.isDefault = side.peer.empty() && tracesByDefault(side.settings, device, scene);
     return side;
 }
 
@@ -307,12 +307,12 @@ ExitCode compareTracers(const CompareTracersOptions& options) {
     const RenderSettings settingsB = sideSettings(common, "--b", options.b);
     requireFiles(options);
     Device device({common.device, common.validation});
+    Scene scene = importScene(scenePath(options.scene));
     CompareTracersRun run{device,
                           options.scene,
                           common,
-                          {makeSide("--a", settingsA, options.a, device.description()),
-                           makeSide("--b", settingsB, options.b, device.description())}};
-    Scene scene = importScene(scenePath(options.scene));
+                          {makeSide("--a", settingsA, options.a, device.description(), scene),
+                           makeSide("--b", settingsB, options.b, device.description(), scene)}};
     settleEnvironment(scene, common);
     for (const std::string& warning : scene.warnings) logWarning(warning);
     TimeBudget budget(common.timeLimit, options.only.size());

@@ -125,7 +125,7 @@ WalkRay rayThrough(const BenchView& view, const std::vector<int64_t>& pixel) {
 nlohmann::ordered_json withWalk(nlohmann::ordered_json json, const CountRun& run, const Scene& scene,
                                 const BenchView& view) {
     if (run.options.walk.empty()) return json;
-    const TreeInspection trees = inspectTrees(scene, traceConfig(run.settings));
+    const TreeInspection trees = inspectTrees(scene, traceConfig(run.settings, scene));
     json["walk"] = nlohmann::ordered_json::parse(walkJson(trees, walkRay(trees, rayThrough(view, run.options.walk))));
     return json;
 }
@@ -136,7 +136,7 @@ ExitCode count(const CountOptions& options) {
     if (!options.folder.empty()) requireWritable(fs::path(options.folder) / kHistogramFile);
     const Scene scene = loadBenchScene(options.scene, options.materials);
     Device device({run.settings.device, run.settings.validation});
-    run.settings = resolveForDevice(run.settings, device.description());
+    run.settings = resolveForDevice(run.settings, device.description(), scene);
     RayCaster caster(device, scene, run.settings);
     BenchView view;
     view.camera = chooseCamera(scene, run.settings.camera);

@@ -56,10 +56,11 @@ void measureMemory(Info& info) {
 
 Info gather(const InfoOptions& options) {
     Info info;
-    const TraceConfig config = traceConfig(options.settings.resolve());
+    const RenderSettings settings = options.settings.resolve();
     const Stopwatch watch;
     info.scene = importScene(scenePath(options.scene));
     info.importSeconds = watch.seconds();
+    const TraceConfig config = traceConfig(settings, info.scene);
     settleEnvironment(info.scene, {});
     info.bounds = sceneBounds(info.scene);
     info.triangles = triangleCount(info.scene);
@@ -121,7 +122,7 @@ void printInfo(const InfoOptions& options, const Info& info) {
 }
 
 void writeNodes(const InfoOptions& options, const Info& info) {
-    const std::string csv = nodeListCsv(inspectTrees(info.scene, traceConfig(options.settings.resolve())));
+    const std::string csv = nodeListCsv(inspectTrees(info.scene, traceConfig(options.settings.resolve(), info.scene)));
     writeFileAtomically(options.nodes, std::as_bytes(std::span(csv)));
 }
 

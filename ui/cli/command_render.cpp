@@ -109,11 +109,11 @@ ExitCode render(RenderOptions options) {
     requireWritable(options.output);
 
     ReplaceableDevice device({settings.device, settings.validation});
-    settings = resolveForDevice(settings, device.get().description());
     Stopwatch watch;
     Scene scene = importScene(path);
     const double importSeconds = watch.restart();
     settleEnvironment(scene, settings);
+    settings = resolveForDevice(settings, device.get().description(), scene);
     for (const std::string& warning : scene.warnings) logWarning(warning);
     RenderResult result = renderDespiteLosses(device, scene, settings, options.quiet);
     result.importSeconds = importSeconds;

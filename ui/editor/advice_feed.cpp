@@ -76,8 +76,10 @@ void startAdvice(EditorContext& context, const AdviceGoal& goal, int width, cons
 
 void adoptAdvice(EditorContext& context, const AdviceReport& report) {
     RenderSettings settings = context.state.settings();
-    for (const AdviceStep& step : report.advice.steps)
-        setSetting(findSetting(renderSettingsTable(), step.setting), settings, step.chosen);
+    for (const AdviceStep& step : report.advice.steps) {
+        const Setting<RenderSettings>& setting = findSetting(renderSettingsTable(), step.setting);
+        setSetting(setting, settings, settingText(getSetting(setting, report.advice.settings)));
+    }
     settings.spp = report.advice.settings.spp;
     applyEdit(context, {"Adopt the advice", [settings](editor::EditState& state) { state.settings = settings; }});
 }

@@ -146,8 +146,8 @@ void keepTrees(EditorContext& context) {
     const bool isWanted = state.showBoxes || state.ray.picks || !state.ray.bounces.empty() ||
                           state.wantedInFrame + 1 >= ImGui::GetFrameCount();
     if (!context.state.hasScene() || !isWanted) return;
-    const TraceConfig config = traceConfig(context.state.settings());
     const auto scene = context.state.document->rendered();
+    const TraceConfig config = traceConfig(context.state.settings(), *scene);
     state.builds.want(0, scene, config);
     if (state.compares) state.builds.want(1, scene, secondConfig(state, config));
     if (state.selected && state.selectedIn != state.builds[state.shown].trees) state.selected.reset();

@@ -35,7 +35,7 @@ struct ViewCounter::Machine {
         BuildControl control;
         control.cancel = &cancel;
         job.report("Building the BVH");
-        RenderSettings resolved = resolveForDevice(wish.settings, device->description());
+        RenderSettings resolved = resolveForDevice(wish.settings, device->description(), *wish.scene);
         resolved.camera = "0";
         Scene settled = *wish.scene;
         settleEnvironment(settled, resolved);

@@ -34,7 +34,7 @@ bool runAdvice(Device& device, const std::string& sceneName, const Scene& scene,
     report.scene = sceneName;
     report.device = device.description().name;
     report.goal = goal;
-    report.base = resolveForDevice(base, device.description());
+    report.base = resolveForDevice(base, device.description(), scene);
     report.base.timeLimit = report.base.targetError = 0.0;
     if (!obtainReferenceOf(report, device, scene, referenceErrorOf(referenceError, goal), watch)) return false;
     if (!advise(device, scene, report.base, report.reference, report.goal, watch.stop, watch.onProgress, report.advice))

@@ -124,6 +124,7 @@ nlohmann::ordered_json adviceJson(const AdviceReport& report) {
         {"complete", report.isComplete},
         {"steps", steps}};
     if (!report.isComplete) return json;
+    json["isDefault"] = report.advice.isStandard;
     json["forecast"] = forecastJson(report.advice.forecast);
     json["default"] = forecastJson(report.advice.standard);
     json["achieved"] = {{"deviceSeconds", report.advice.achieved.seconds},
@@ -156,6 +157,7 @@ void printAdvice(const AdviceReport& report) {
     for (const AdviceStep& step : advice.steps) printStep(step);
     if (!report.isComplete) return;
     printUnneeded(report);
+    if (advice.isStandard) std::cout << "All of that together would gain nothing: what the search began with is advised\n";
     std::cout << "Forecast\n";
     std::cout << "  advised: " << forecastText(advice.forecast) << "\n  default: " << forecastText(advice.standard) << "\n"
               << "  achieved by one run: " << secondsText(advice.achieved.seconds) << ", relative error "

@@ -154,7 +154,7 @@ std::string missingForChartSet(const std::string& name) {
 }
 
 std::vector<ChartConfig> chartConfigs(const RenderSettings& base, const ChartRequest& request,
-                                      const DeviceDescription& device) {
+                                      const DeviceDescription& device, const Scene& scene) {
     std::vector<ChartConfig> configs;
     if (!request.file.empty()) configs = readConfigs(request.file, base);
     for (const std::string& set : request.sets)
@@ -163,7 +163,7 @@ std::vector<ChartConfig> chartConfigs(const RenderSettings& base, const ChartReq
                 addConfig(configs, variation.text(), variation.settings);
     configs = vary(configs, base, request.vary);
     for (ChartConfig& config : configs) {
-        config.settings = resolveForDevice(config.settings, device);
+        config.settings = resolveForDevice(config.settings, device, scene);
         const std::string missing = missingForTracer(config.settings.tracer, device);
         if (!missing.empty())
             throw Error(

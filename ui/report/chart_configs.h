@@ -21,10 +21,10 @@ struct ChartRequest {
     std::string file;               ///< JSON: see docs/charts.md; empty: none
 };
 
-/// Named configurations over the base, resolved for the device, none twice; the base alone where nothing is asked for.
+/// Named configurations over the base, resolved for device and scene, none twice; the base alone where nothing is asked for.
 /// What a device cannot run is left out of a set, with a notice. Throws Error for what is no set, no setting or no
 /// value of one, and for a tracer that was asked for and is missing.
 std::vector<ChartConfig> chartConfigs(const RenderSettings& base, const ChartRequest& request,
-                                      const DeviceDescription& device);
+                                      const DeviceDescription& device, const Scene& scene);
 
 }  // namespace raylab

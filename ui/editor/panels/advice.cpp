@@ -143,6 +143,7 @@ void drawReport(EditorContext& context, AdvicePanel& p, const std::shared_ptr<co
     ImGui::TextColored(color::kDim, "achieved   %s, relative error %s", secondsText(advice.achieved.seconds).c_str(),
                        shortNumber(advice.achieved.relativeError).c_str());
     ImGui::TextColored(color::kDim, "as it was   %s", forecastText(advice.standard).c_str());
+    if (advice.isStandard) ImGui::TextWrapped("All of this together would gain nothing: what there was is advised.");
     drawSteps(advice);
     drawUnneeded(*report);
 }

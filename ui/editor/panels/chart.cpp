@@ -49,7 +49,8 @@ std::optional<size_t> curveOf(const ChartView& view, const std::string& name) {
 
 void addConfigs(EditorContext& context, ChartPanel& p, const ChartRequest& request) {
     try {
-        addToQueue(p.queue, chartConfigs(context.state.settings(), request, *context.status.deviceDescription));
+        addToQueue(p.queue, chartConfigs(context.state.settings(), request, *context.status.deviceDescription,
+                                        *context.state.document->rendered()));
     } catch (const Error& error) {
         logError(std::string("chart: ") + error.what());
     }
