@@ -375,6 +375,22 @@ std::optional<Achieved> Search::run(const RenderSettings& settings) {
     return Achieved{only.sampleSeconds.front() * only.samples, std::sqrt(std::max(0.0, only.squaredErrors.front()))};
 }
 
+/// Takes back what may have brought a bias that short probes did not show: false where nothing of it was chosen.
+bool takeBackBiased(Advice& advice, double relativeBias) {
+    bool isChanged = false;
+    for (AdviceStep& step : advice.steps) {
+        const bool mayBias = step.setting == "depth" || step.setting == "integrator";
+        if (!mayBias || step.chosen == step.held) continue;
+        const auto chosen = std::ranges::find(step.options, step.chosen, &AdviceOption::value);
+        chosen->gain = {0.0, 0.0, 0.0};
+        chosen->relativeBias = relativeBias;
+        step.chosen = step.held;
+        setSetting(findSetting(renderSettingsTable(), step.setting), advice.settings, step.held);
+        isChanged = true;
+    }
+    return isChanged;
+}
+
 }  // namespace
 
 std::vector<std::string> adviceSettings() {
@@ -406,6 +422,8 @@ bool advise(Device& device, const Scene& scene, const RenderSettings& base, cons
     if (!isSearched(kDenoise)) settings.denoise = base.denoise;
     progress("forecast");
     std::optional<Forecast> forecast = search.forecast(settings);
+    if (forecast && forecast->samples == 0 && takeBackBiased(advice, forecast->relativeBias))
+        forecast = search.forecast(settings);
     if (!forecast) return false;
     if (forecast->samples == 0)
         throw Error("nothing that was tried reaches a relative error of " + std::to_string(goal.relativeError) +

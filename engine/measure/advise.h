@@ -66,8 +66,8 @@ using AdviceProgress = std::function<void(const std::string& what)>;
 
 /// Finds the settings that reach the goal soonest on this scene and device by coordinate search: depth, integrator,
 /// choice of lights, sampler, roulette, tracer, layout, builder and adaptive samples in turn, each value measured beside
-/// the one that is held, without a denoiser. Then forecasts, tries the denoisers against that, and runs once to see
-/// whether it was right. `advice` follows each step, and a search goes on
+/// the one that is held, without a denoiser. Then forecasts, and where depth or integrator turn out to have a bias that keeps them from
+/// the goal, takes them back; tries the denoisers against that, and runs once to see whether it was right. `advice` follows each step, and a search goes on
 /// from the steps that it holds: after a loss of the device, on another one. False where `stop` says so. Throws Error
 /// where nothing that was tried reaches the error. `base` must be resolved for the device; the scene's environment must
 /// not be settled.

@@ -76,8 +76,15 @@ double ChartRun::secondsOf(size_t config, int level) const {
     return sum;
 }
 
+int ChartRun::firstLevelOf(size_t config) const {
+    const uint32_t least = leastSamples(plan_.configs[config].settings);
+    int level = 0;
+    while (samplesOfLevel(level) < least) ++level;
+    return level;
+}
+
 bool ChartRun::fitsTimeLimit(size_t config, int level) const {
-    if (plan_.timeLimit <= 0.0 || level == 0) return true;
+    if (plan_.timeLimit <= 0.0 || level == firstLevelOf(config)) return true;
     const double share = plan_.timeLimit / static_cast<double>(plan_.configs.size());
     return secondsOf(config, -1) + kGrowth * secondsOf(config, level - 1) <= share;
 }
@@ -88,7 +95,7 @@ std::optional<ChartRun::Place> ChartRun::nextPlace() {
             for (size_t i = 0; i < plan_.configs.size(); ++i) {
                 const size_t config = repeat % 2 == 0 ? i : plan_.configs.size() - 1 - i;
                 const Place place{level, repeat, config};
-                if (level >= levelLimits_[config] || isMeasured(place)) continue;
+                if (level < firstLevelOf(config) || level >= levelLimits_[config] || isMeasured(place)) continue;
                 const bool begins = std::ranges::none_of(table_.points, [&](const ChartPoint& p) {
                     return isOf(p, plan_.configs[config].name, samplesOfLevel(level));
                 });
@@ -119,12 +126,13 @@ Renderer& ChartRun::rendererOf(size_t config, const std::function<bool()>& stop)
         if (waiting > kMostWaitingBytes) other.reset();
     }
     RenderSettings settings = plan_.configs[config].settings;
-    settings.spp = samplesOfLevel(0);
+    const uint32_t least = samplesOfLevel(firstLevelOf(config));
+    settings.spp = least;
     Scene settled = scene_;
     settleEnvironment(settled, settings);
     renderers_[config] = std::make_unique<Renderer>(device_, settled, settings);
     setupTimes_[config] = renderers_[config]->times();
-    render(*renderers_[config], plan_.firstSeed, samplesOfLevel(0), std::numeric_limits<double>::infinity(), stop);
+    render(*renderers_[config], plan_.firstSeed, least, std::numeric_limits<double>::infinity(), stop);
     renderers_[config]->develop(stop);  // a denoiser's kernels are made now
     return *renderers_[config];
 }
@@ -182,7 +190,7 @@ double ChartRun::fractionDone() const {
     // Seconds grow with samples: so does what is left.
     double all = 0.0, done = 0.0;
     for (size_t config = 0; config < plan_.configs.size(); ++config)
-        for (int level = 0; level < levelLimits_[config]; ++level)
+        for (int level = firstLevelOf(config); level < levelLimits_[config]; ++level)
             for (int repeat = 0; repeat < plan_.seeds; ++repeat) {
                 all += samplesOfLevel(level);
                 if (isMeasured({level, repeat, config})) done += samplesOfLevel(level);

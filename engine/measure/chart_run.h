@@ -83,6 +83,8 @@ private:
 
     std::optional<Place> nextPlace();
     bool isMeasured(const Place& place) const;
+    /// The first with the samples that the configuration takes at least.
+    int firstLevelOf(size_t config) const;
     bool fitsTimeLimit(size_t config, int level) const;
     double secondsOf(size_t config, int level) const;
     Renderer& rendererOf(size_t config, const std::function<bool()>& stop);

@@ -62,6 +62,22 @@ TEST_F(Chart, WritesATableAChartAndAReportAndGoesOnWhereItStopped) {
     EXPECT_NEAR(this->json("compare.json")["rmse"].get<double>(), point["rmse"].get<double>(), 1e-9);
 }
 
+/// A configuration that takes some samples at least begins with these, beside one that does not.
+TEST_F(Chart, BeginsWhereAConfigurationCan) {
+    ASSERT_EQ(runProgram("chart " + kSmallCornell + " -o a --vary adaptive=off,on --points 5 --seeds 2 --reference-error 0.3 --quiet"), 0)
+        << text("err");
+    const Json points = json("a/chart.json")["points"];
+    const auto leastOf = [&](const std::string& config) {
+        int least = 1000;
+        for (const Json& point : points)
+            if (point["config"] == config) least = std::min(least, point["samples"].get<int>());
+        return least;
+    };
+    EXPECT_EQ(leastOf("adaptive=off"), 1);
+    EXPECT_EQ(leastOf("adaptive=on"), 8);
+    EXPECT_EQ(points.size(), 2u * (5u + 2u));
+}
+
 TEST_F(Chart, RefusesWhatDoesNotBelongToTheFolder) {
     ASSERT_EQ(runProgram(kChart + " --points 1"), 0) << text("err");
     expectProgramRefuses(kChart + " --points 1 --clamp 2", "with clamp 0.0 instead of 2.0");
