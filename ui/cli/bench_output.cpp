@@ -6,6 +6,7 @@
 
 #include "engine/core/file.h"
 #include "engine/gpu/check.h"
+#include "engine/render/device_defaults.h"
 #include "ui/cli/interrupt.h"
 
 namespace raylab {
@@ -92,7 +93,10 @@ void measureScenes(const BenchOptions& options, const BenchPlan& plan, BenchRun&
     measureKeepingRows(options, run, [&] {
         for (const std::string& name : options.scenes) {
             if (InterruptGuard::isInterrupted()) throw Interrupted();
-            measureScene(run, name, loadBenchScene(name, options.materials), plan, options.json != "-");
+            const Scene scene = loadBenchScene(name, options.materials);
+            if (options.scenes.size() == 1)
+                run.settings = resolveForDevice(run.settings, run.device.description(), scene);
+            measureScene(run, name, scene, plan, options.json != "-");
         }
     });
 }

@@ -13,7 +13,7 @@ namespace raylab {
 /// What a run of `raylab bench` reports.
 struct BenchRun {
     Device& device;
-    RenderSettings settings;  ///< resolved
+    RenderSettings settings;  ///< resolved; with several scenes, layout `auto` stays, as each row says its scene's
     int repeats = 5;
     MemoryBandwidth memory;
     std::vector<SceneRows> scenes;
