@@ -8,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/measure/image_error.h"
+#include "engine/measure/setting_effects.h"
 #include "engine/render/denoise.h"
 #include "engine/render/integrators.h"
 #include "engine/render/renderer.h"
@@ -138,13 +139,18 @@ private:
     bool lookAtHeld(const RenderSettings& held, bool needsWanted);
     void noteHeld(const Probe& probe) {
         sampleSeconds_ = probe.medianSampleSeconds();
-        wantedSamples_ = medianSeconds(probe, errorFor(probe)) / sampleSeconds_;
+        wantedSamples_ = medianSeconds(probe, errorForNoise(probe)) / sampleSeconds_;
     }
     std::optional<Forecast> forecastBySamples(const RenderSettings& settings);
     std::optional<DenoisedForecast> forecastDenoised(const RenderSettings& settings, double mostSeconds);
     /// The error that candidates are compared at.
     double errorFor(const Probe& held) const {
         return goal_.relativeError > 0.0 ? goal_.relativeError : held.errorAfter(goal_.seconds);
+    }
+    /// The error at which their noise is what the goal's error is, whatever their bias.
+    double errorForNoise(const Probe& held) const {
+        return goal_.relativeError > 0.0 ? std::hypot(goal_.relativeError, std::sqrt(held.biasSquared()))
+                                         : held.errorAfter(goal_.seconds);
     }
 
     Device& device_;
@@ -156,6 +162,20 @@ private:
     double sampleSeconds_ = 0.0;  ///< of the held settings
     double wantedSamples_ = 0.0;  ///< that they take to the goal
 };
+
+/// One estimate for all, of candidates that converge to the same picture.
+void shareBias(std::vector<Probe>& probes) {
+    BiasEstimate shared{0.0, 0.0, 0.0};
+    const auto count = static_cast<double>(probes.size());
+    for (const Probe& probe : probes) {
+        shared.biasSquared += probe.bias.biasSquared / count;
+        shared.standardError = std::hypot(shared.standardError, probe.bias.standardError / count);
+    }
+    for (Probe& probe : probes) {
+        probe.bias.biasSquared = shared.biasSquared;
+        probe.bias.standardError = shared.standardError;
+    }
+}
 
 /// Paired by seed: both saw the same random numbers on a machine of the same mood. One without hope has fewer seeds.
 Interval gainOf(const Probe& held, const Probe& other, double error) {
@@ -173,13 +193,13 @@ AdviceOption optionOf(const std::string& value, const Probe& held, const Probe& 
     return {value, gainOf(held, other, error), std::sqrt(other.biasSquared()), other.energy, other.buildSeconds};
 }
 
+bool isWorthwhile(const AdviceOption& option) { return option.gain.low > 1.0 && option.gain.value > kWorthwhile; }
+
 /// The fastest of those whose gain is one with confidence.
 size_t choose(const std::vector<AdviceOption>& options, const std::vector<Probe>& probes, double error) {
     size_t best = 0;
-    for (size_t i = 1; i < options.size(); ++i) {
-        const bool isGain = options[i].gain.low > 1.0 && options[i].gain.value > kWorthwhile;
-        if (isGain && medianSeconds(probes[i], error) < medianSeconds(probes[best], error)) best = i;
-    }
+    for (size_t i = 1; i < options.size(); ++i)
+        if (isWorthwhile(options[i]) && medianSeconds(probes[i], error) < medianSeconds(probes[best], error)) best = i;
     return best;
 }
 
@@ -208,12 +228,16 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, s
     const bool isAdaptive = coordinate.setting == std::string_view(kAdaptive);
     if (!lookAtHeld(held, isAdaptive)) return false;
     if (isAdaptive && wantedSamples_ < kLeastAdaptive) return true;  // its pilot would be more than the whole
-    const auto probes = measure(candidates, samplesOf(coordinate), kProbeSeeds);
+    auto probes = measure(candidates, samplesOf(coordinate), kProbeSeeds);
     if (!probes) return false;
-    const double error = errorFor(probes->front());
+    const bool isSameMean = isNoiseSetting(coordinate.setting) || isSpeedSetting(coordinate.setting);
+    if (isSameMean) shareBias(*probes);
+    const double error = isSameMean ? errorForNoise(probes->front()) : errorFor(probes->front());
     AdviceStep step{coordinate.setting, values.front(), values.front(), {}};
-    for (size_t i = 0; i < values.size(); ++i)
+    for (size_t i = 0; i < values.size(); ++i) {
         step.options.push_back(optionOf(values[i], probes->front(), (*probes)[i], error));
+        if (isSameMean) step.options.back().relativeBias = 0.0;
+    }
     const size_t best = choose(step.options, *probes, error);
     step.chosen = values[best];
     held = candidates[best];
@@ -356,7 +380,7 @@ bool Search::tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, 
                                                       : std::pow(plain.relativeError / level.error, 2.0));
         AdviceOption option{name, {0.0, 0.0, 0.0}, found->relativeBias, found->energy};
         if (!gains.empty()) option.gain = geometricInterval(gains);
-        if (option.gain.low > 1.0 && option.gain.value > kWorthwhile) {
+        if (isWorthwhile(option)) {
             step.chosen = name;
             forecast = forecastOf(*found);
         }
@@ -375,7 +399,8 @@ std::optional<Achieved> Search::run(const RenderSettings& settings) {
     return Achieved{only.sampleSeconds.front() * only.samples, std::sqrt(std::max(0.0, only.squaredErrors.front()))};
 }
 
-/// Takes back what may have brought a bias that short probes did not show: false where nothing of it was chosen.
+/// What may have brought a bias that short probes did not show gives way to the next best value: false where nothing of
+/// it was chosen.
 bool takeBackBiased(Advice& advice, double relativeBias) {
     bool isChanged = false;
     for (AdviceStep& step : advice.steps) {
@@ -385,7 +410,13 @@ bool takeBackBiased(Advice& advice, double relativeBias) {
         chosen->gain = {0.0, 0.0, 0.0};
         chosen->relativeBias = relativeBias;
         step.chosen = step.held;
-        setSetting(findSetting(renderSettingsTable(), step.setting), advice.settings, step.held);
+        double most = 0.0;
+        for (const AdviceOption& option : step.options)
+            if (isWorthwhile(option) && option.gain.value > most) {
+                most = option.gain.value;
+                step.chosen = option.value;
+            }
+        setSetting(findSetting(renderSettingsTable(), step.setting), advice.settings, step.chosen);
         isChanged = true;
     }
     return isChanged;
@@ -422,7 +453,7 @@ bool advise(Device& device, const Scene& scene, const RenderSettings& base, cons
     if (!isSearched(kDenoise)) settings.denoise = base.denoise;
     progress("forecast");
     std::optional<Forecast> forecast = search.forecast(settings);
-    if (forecast && forecast->samples == 0 && takeBackBiased(advice, forecast->relativeBias))
+    while (forecast && forecast->samples == 0 && takeBackBiased(advice, forecast->relativeBias))
         forecast = search.forecast(settings);
     if (!forecast) return false;
     if (forecast->samples == 0)

@@ -24,7 +24,8 @@ std::vector<std::string> adviceSettings();
 struct AdviceOption {
     std::string value;
     Interval gain;  ///< seconds to the goal's error with the held value over those with this one; 0: never there
-    double relativeBias = 0.0;  ///< root of the squared bias where it is one
+    /// Root of the squared bias where it is one, of settings that can change what a picture converges to.
+    double relativeBias = 0.0;
     double energy = 0.0;        ///< of the picture, over the reference's
     double buildSeconds = 0.0;
 };
@@ -66,8 +67,9 @@ using AdviceProgress = std::function<void(const std::string& what)>;
 
 /// Finds the settings that reach the goal soonest on this scene and device by coordinate search: depth, integrator,
 /// choice of lights, sampler, roulette, tracer, layout, builder and adaptive samples in turn, each value measured beside
-/// the one that is held, without a denoiser. Then forecasts, and where depth or integrator turn out to have a bias that keeps them from
-/// the goal, takes them back; tries the denoisers against that, and runs once to see whether it was right. `advice` follows each step, and a search goes on
+/// the one that is held, without a denoiser: those that converge to the same picture by their noise alone. Then forecasts, and
+/// where depth or integrator turn out to have a bias that keeps them from the goal, goes to the next best; tries the
+/// denoisers against that, and runs once to see whether it was right. `advice` follows each step, and a search goes on
 /// from the steps that it holds: after a loss of the device, on another one. False where `stop` says so. Throws Error
 /// where nothing that was tried reaches the error. `base` must be resolved for the device; the scene's environment must
 /// not be settled.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -173,6 +174,7 @@ std::vector<FineTexture> texturesBelowPixels(const Scene& scene, const RenderSet
         const double texels = ofTexture[i] * std::sqrt(static_cast<double>(t.width) * static_cast<double>(t.height));
         if (std::isfinite(texels) && texels > kFineTexels) fine.push_back({t.name, t.width, t.height, texels});
     }
+    std::ranges::stable_sort(fine, std::greater{}, &FineTexture::texelsPerPixel);
     return fine;
 }
 

@@ -38,6 +38,7 @@ struct FineTexture {
 
 /// Textures of which more than two texels along an axis fall into a pixel everywhere in the camera's view, as it sees
 /// them directly; what hides a surface is not taken into account, so that none is named wrongly for that.
+/// The finest first.
 std::vector<FineTexture> texturesBelowPixels(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace raylab

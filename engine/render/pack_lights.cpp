@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include "engine/core/luminance.h"
 #include "engine/image/srgb.h"
@@ -17,8 +19,11 @@ using std::numbers::pi;
 /// Part of the light samples that goes to the kinds of light evenly, whatever their estimated power: it bounds the
 /// variance where the estimate is wrong for a part of the scene.
 constexpr double kEvenShare = 0.2;
-/// From so many lights on a tree is worth its walk.
-constexpr size_t kManyLights = 32;
+/// From so many lights on a tree is worth its walk: of punctual ones that are somewhere, for what each sends falls with
+/// the squared distance, and of emissive triangles and those together (docs/benchmarks/2026-11-23-sampling.md).
+constexpr size_t kManyPunctual = 2, kManyLights = 32;
+/// Emissive triangles whose area is this part of their box's are one lamp, which from outside sends its light as one.
+constexpr double kOneLamp = 0.25;
 
 /// The mean of an emission texture over the whole of it (its smallest level), 1 without one.
 glm::vec3 meanEmission(const Material& material, const MaterialTables& tables) {
@@ -164,9 +169,28 @@ void countShapes(const std::vector<Light>& punctual, LightTables& lights) {
         if (hasShape(light)) ++(isLocal(light) ? lights.shapedCount : lights.sunDiscCount);
 }
 
-LightChoice settleChoice(LightChoice choice, size_t localCount) {
-    if (choice == LightChoice::automatic) return localCount >= kManyLights ? LightChoice::tree : LightChoice::power;
-    return choice == LightChoice::tree && localCount < 2 ? LightChoice::power : choice;
+bool isOneLamp(std::span<const shared::EmissiveData> emissive) {
+    double area = 0.0;
+    glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
+    for (const shared::EmissiveData& triangle : emissive) {
+        const glm::dvec3 p0(triangle.p0), e1(triangle.edge1), e2(triangle.edge2);
+        area += 0.5 * glm::length(glm::cross(e1, e2));
+        for (const glm::dvec3& corner : {p0, p0 + e1, p0 + e2}) {
+            lo = glm::min(lo, corner);
+            hi = glm::max(hi, corner);
+        }
+    }
+    const glm::dvec3 size = hi - lo;
+    return area >= kOneLamp * 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+/// `localCount`: punctual lights that are somewhere.
+LightChoice settleChoice(LightChoice choice, std::span<const shared::EmissiveData> emissive, size_t localCount) {
+    const size_t count = emissive.size() + localCount;
+    if (choice == LightChoice::tree && count < 2) return LightChoice::power;
+    if (choice != LightChoice::automatic) return choice;
+    const bool isMany = localCount >= kManyPunctual || (count >= kManyLights && !(localCount == 0 && isOneLamp(emissive)));
+    return isMany ? LightChoice::tree : LightChoice::power;
 }
 
 /// Probabilities of the kinds of light, from their power.
@@ -240,7 +264,7 @@ LightTables packLights(const Scene& scene, float sceneRadius, MaterialTables& ma
     const double emissive = emitted.empty() ? 0.0 : packEmissive(scene, materials, emitted, lights);
     const std::vector<Light> punctual = punctualLights(scene, config);
     const auto localCount = static_cast<size_t>(std::count_if(punctual.begin(), punctual.end(), isLocal));
-    const LightChoice choice = settleChoice(config.choice, lights.emissive.size() + localCount);
+    const LightChoice choice = settleChoice(config.choice, lights.emissive, localCount);
     const PunctualFlux flux = packPunctual(punctual, sceneRadius, choice, config.allPunctual, lights);
     if (!config.allPunctual) countShapes(punctual, lights);
     if (known != nullptr)

@@ -73,7 +73,7 @@ std::span<const Setting<RenderSettings>> renderSettingsTable() {
         {"lens-radius", &S::lensRadius, "scene units", "of a thin lens: focal length / (2 x f-number); 0: a pinhole, all is sharp", 0, 1e6},
         {"focus-distance", &S::focusDistance, "scene units", "that is sharp, along the axis of view; 0: where the camera's target is", 0, 1e9},
         {"clamp", &S::clamp, "radiance", "cut samples at this largest component: fewer fireflies, light is lost (and reported); 0: off", 0, 1e30},
-        {"light-choice", &S::lightChoice, "", "which light is sampled: by a tree over lights, by power, or uniformly (lamps by their area alone); auto: a tree over many, else by power", 0, 0, {"auto", "tree", "power", "uniform"}},
+        {"light-choice", &S::lightChoice, "", "which light is sampled: by a tree over lights, by power, or uniformly (lamps by their area alone); auto: a tree where they are several, else by power", 0, 0, {"auto", "tree", "power", "uniform"}},
         {"denoise", &S::denoise, "", "takes noise out of the picture, with a bias that falls with the samples: by an edge-avoiding wavelet guided by first hits and by each pixel's variance (atrous); views stay as they are", 0, 0, denoiserNames()},
         {"time-limit", &S::timeLimit, "s", "stop rendering after so long, once every pixel has a sample; 0: no limit", 0, 1e9},
         {"target-error", &S::targetError, "", "stop where the estimated relative error is below; 0: no target", 0, 1e3},

@@ -91,7 +91,8 @@ class EditInPlace : public GpuTest, public ::testing::WithParamInterface<EditCas
 
 TEST_P(EditInPlace, IsTheScenePreparedAnew) {
     const EditCase& each = GetParam();
-    const RenderSettings settings = smallImage(16, 4, 3);
+    RenderSettings settings = smallImage(16, 4, 3);
+    settings.lightChoice = "power";  // a tree's nodes would be uploaded with the lights
     Scene scene = editedScene();
     const auto prepared = std::make_shared<PreparedScene>(prepareScene(device_, scene, settings));
     Renderer renderer(device_, prepared, settings);

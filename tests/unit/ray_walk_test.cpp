@@ -27,7 +27,7 @@ std::vector<WalkRay> randomRays(size_t count, float reach, uint32_t seed) {
 }
 
 /// All triangles in the world, instance after instance.
-accel_test::TestMesh worldTriangles(const Scene& scene) {
+accel_test::TestMesh trianglesInWorld(const Scene& scene) {
     accel_test::TestMesh world;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
@@ -39,7 +39,7 @@ accel_test::TestMesh worldTriangles(const Scene& scene) {
     return world;
 }
 
-/// Index of the hit's triangle among worldTriangles().
+/// Index of the hit's triangle among trianglesInWorld().
 uint32_t worldIndex(const Scene& scene, const PrimitiveTest& hit) {
     size_t before = 0;
     for (uint32_t i = 0; i < hit.instance; ++i) before += scene.meshes[scene.instances[i].mesh].triangles.size();
@@ -48,7 +48,7 @@ uint32_t worldIndex(const Scene& scene, const PrimitiveTest& hit) {
 
 void expectClosestHits(const Scene& scene, const TraceConfig& config, size_t count) {
     const TreeInspection trees = inspectTrees(scene, config);
-    const accel_test::TestMesh world = worldTriangles(scene);
+    const accel_test::TestMesh world = trianglesInWorld(scene);
     size_t hits = 0, undecidable = 0;
     for (const WalkRay& ray : randomRays(count, 2.0f, kSeed + 9)) {
         const OracleHit truth = closestHitDouble(world.positions, world.triangles, ray.origin, ray.direction, ray.tMin);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <ranges>
 
 #include "ui/report/chart_output.h"
 #include "ui/report/settings_file.h"
@@ -73,6 +74,9 @@ void printDepth(const std::vector<AdviceStep>& steps) {
     std::cout << "\n";
 }
 
+/// Lines of textures that are printed; a scene can have hundreds.
+constexpr size_t kMostTextureLines = 5;
+
 void printUnneeded(const AdviceReport& report) {
     std::cout << "What the scene does not need\n";
     printDepth(report.advice.steps);
@@ -84,9 +88,12 @@ void printUnneeded(const AdviceReport& report) {
                       << " of the light\n";
         }
     if (idle == 0) std::cout << "  every light that was tried (" << report.lights.size() << ") has an effect\n";
-    for (const FineTexture& texture : report.textures)
+    for (const FineTexture& texture : report.textures | std::views::take(kMostTextureLines))
         std::cout << "  texture " << texture.name << " (" << texture.width << " x " << texture.height << ") has "
                   << shortNumber(texture.texelsPerPixel) << " texels or more along each pixel\n";
+    if (report.textures.size() > kMostTextureLines)
+        std::cout << "  and " << report.textures.size() - kMostTextureLines
+                  << " more textures have 2 or more; --json names them all\n";
 }
 
 }  // namespace
