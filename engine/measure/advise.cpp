@@ -139,10 +139,11 @@ private:
     bool lookAtHeld(const RenderSettings& held, bool needsWanted);
     void noteHeld(const Probe& probe) {
         sampleSeconds_ = probe.medianSampleSeconds();
-        wantedSamples_ = medianSeconds(probe, errorForNoise(probe)) / sampleSeconds_;
+        wantedSamples_ = (medianSeconds(probe, errorForNoise(probe)) - probe.buildSeconds) / sampleSeconds_;
     }
     std::optional<Forecast> forecastBySamples(const RenderSettings& settings);
     std::optional<DenoisedForecast> forecastDenoised(const RenderSettings& settings, double mostSeconds);
+    Interval gainOverPlain(const DenoisedForecast& found, const Forecast& plain) const;
     /// The error that candidates are compared at.
     double errorFor(const Probe& held) const {
         return goal_.relativeError > 0.0 ? goal_.relativeError : held.errorAfter(goal_.seconds);
@@ -192,8 +193,6 @@ Interval gainOf(const Probe& held, const Probe& other, double error) {
 AdviceOption optionOf(const std::string& value, const Probe& held, const Probe& other, double error) {
     return {value, gainOf(held, other, error), std::sqrt(other.biasSquared()), other.energy, other.buildSeconds};
 }
-
-bool isWorthwhile(const AdviceOption& option) { return option.gain.low > 1.0 && option.gain.value > kWorthwhile; }
 
 /// The fastest of those whose gain is one with confidence.
 size_t choose(const std::vector<AdviceOption>& options, const std::vector<Probe>& probes, double error) {
@@ -364,29 +363,42 @@ std::optional<Forecast> Search::forecast(const RenderSettings& settings) {
     return forecastOf(*found);
 }
 
+/// At equal time the samples' noise would take the square of its ratio longer to fall as far.
+Interval Search::gainOverPlain(const DenoisedForecast& found, const Forecast& plain) const {
+    std::vector<double> gains;
+    for (const DenoisedLevel& level : found.seeds)
+        gains.push_back(goal_.relativeError > 0.0 ? plain.seconds / level.seconds
+                                                  : std::pow(plain.relativeError / level.error, 2.0));
+    return gains.empty() ? Interval{0.0, 0.0, 0.0} : geometricInterval(gains);
+}
+
 bool Search::tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, Forecast& forecast) {
     const Forecast plain = forecast;
+    const auto adaptive = std::ranges::find(steps, kAdaptive, &AdviceStep::setting);
     AdviceStep step{kDenoise, held.denoise, held.denoise, {{held.denoise, {1.0, 1.0, 1.0}, plain.relativeBias, 1.0}}};
+    RenderSettings best = held;
     for (const std::string& name : denoiserNames()) {
         if (name == step.held) continue;
-        RenderSettings candidate = held;
-        candidate.denoise = name;
-        const auto found = forecastDenoised(candidate, std::max(plain.seconds, goal_.seconds));
-        if (!found) return false;
-        // At equal time the samples' noise would take the square of its ratio longer to fall as far.
-        std::vector<double> gains;
-        for (const DenoisedLevel& level : found->seeds)
-            gains.push_back(goal_.relativeError > 0.0 ? plain.seconds / level.seconds
-                                                      : std::pow(plain.relativeError / level.error, 2.0));
-        AdviceOption option{name, {0.0, 0.0, 0.0}, found->relativeBias, found->energy};
-        if (!gains.empty()) option.gain = geometricInterval(gains);
-        if (isWorthwhile(option)) {
+        std::vector<RenderSettings> candidates{held};
+        candidates.front().denoise = name;
+        // The few samples that a denoised picture takes may be fewer than a pilot is worth.
+        if (held.adaptive && adaptive != steps.end()) candidates.emplace_back(candidates.front()).adaptive = false;
+        AdviceOption option{name, {0.0, 0.0, 0.0}};
+        for (const RenderSettings& candidate : candidates) {
+            const auto found = forecastDenoised(candidate, std::max(plain.seconds, goal_.seconds));
+            if (!found) return false;
+            const Interval gain = gainOverPlain(*found, plain);
+            if (&candidate != &candidates.front() && gain.value <= option.gain.value) continue;
+            option = {name, gain, found->relativeBias, found->energy};
+            if (!isWorthwhile(option)) continue;
             step.chosen = name;
+            best = candidate;
             forecast = forecastOf(*found);
         }
         step.options.push_back(std::move(option));
     }
-    held.denoise = step.chosen;
+    if (best.adaptive != held.adaptive) adaptive->chosen = "off";
+    held = best;
     steps.push_back(std::move(step));
     return true;
 }
@@ -423,6 +435,8 @@ bool takeBackBiased(Advice& advice, double relativeBias) {
 }
 
 }  // namespace
+
+bool isWorthwhile(const AdviceOption& option) { return option.gain.low > 1.0 && option.gain.value > kWorthwhile; }
 
 std::vector<std::string> adviceSettings() {
     std::vector<std::string> names;

@@ -30,11 +30,14 @@ struct AdviceOption {
     double buildSeconds = 0.0;
 };
 
+/// Whether its gain is one with 95 % confidence, and enough for an unusual setting.
+bool isWorthwhile(const AdviceOption& option);
+
 /// One setting's turn.
 struct AdviceStep {
     std::string setting;
     std::string held;                   ///< value before
-    std::string chosen;                 ///< value after: another only where its gain is one with 95 % confidence
+    std::string chosen;                 ///< value after: another only where it is worthwhile
     std::vector<AdviceOption> options;  ///< the held value is the first
 };
 

@@ -50,7 +50,7 @@ nlohmann::ordered_json stepJson(const AdviceStep& step) {
 void printStep(const AdviceStep& step) {
     std::cout << "  " << step.setting << " " << step.chosen;
     if (step.chosen == step.held) {
-        std::cout << ", as before: nothing gains\n";
+        std::cout << ", " << keptText(step) << "\n";
     } else {
         const auto chosen = std::ranges::find(step.options, step.chosen, &AdviceOption::value);
         std::cout << " instead of " << step.held << ": " << gainText(chosen->gain) << "\n";
@@ -102,6 +102,11 @@ std::string gainText(const Interval& gain) {
     if (gain.value == 0.0) return "does not come to the goal in that time";
     if (std::isinf(gain.value)) return "reaches the error, which the former does not";
     return "x " + shortNumber(gain.value) + " (" + shortNumber(gain.low) + " to " + shortNumber(gain.high) + ")";
+}
+
+std::string keptText(const AdviceStep& step) {
+    return std::ranges::any_of(step.options, isWorthwhile) ? "as before: no gain with what was chosen later"
+                                                           : "as before: nothing gains";
 }
 
 std::string forecastText(const Forecast& forecast) {

@@ -31,6 +31,8 @@ nlohmann::ordered_json presetJson(const AdviceReport& report);
 
 /// "x 1.4 (1.2 to 1.7)": how many times as fast; or what infinity and 0 stand for.
 std::string gainText(const Interval& gain);
+/// Of a step that chose what was held.
+std::string keptText(const AdviceStep& step);
 
 /// Samples, time and error; or why there is none.
 std::string forecastText(const Forecast& forecast);

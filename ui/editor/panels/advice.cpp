@@ -104,7 +104,7 @@ void drawStep(const AdviceStep& step) {
     if (changed && chosen != step.options.end())
         ImGui::Text("instead of %s: %s", step.held.c_str(), gainText(chosen->gain).c_str());
     else
-        ImGui::TextColored(color::kDim, "as before: nothing gains");
+        ImGui::TextColored(color::kDim, "%s", keptText(step).c_str());
 }
 
 void drawSteps(const Advice& advice) {
