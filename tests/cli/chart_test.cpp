@@ -228,6 +228,21 @@ TEST_F(Advise, BeginsWhereTheUserIs) {
     EXPECT_EQ(json("p.json")["settings"]["denoise"], "atrous");
 }
 
+/// What depth 4 lacks is no reason against a sampler: all of them lack it.
+TEST_F(Advise, ComparesByNoiseWhatConvergesToTheSame) {
+    ASSERT_EQ(runProgram("advise cornell --width 32 --height 32 --depth 4 --target-error 0.06 --only sampler "
+                         "-o p.json --json a.json --quiet"),
+              0)
+        << text("err");
+    const Json advice = json("a.json");
+    ASSERT_EQ(advice["steps"][0]["options"].size(), 4u);
+    for (const Json& option : advice["steps"][0]["options"]) {
+        EXPECT_EQ(option["relativeBias"], 0.0) << option["value"];
+        EXPECT_GT(option["gain"]["value"], 0.0) << option["value"];
+    }
+    EXPECT_GT(advice["forecast"]["relativeBias"], 0.01);
+}
+
 TEST_F(Advise, RefusesWhatIsNoGoal) {
     expectProgramRefuses("advise cornell", "give either --target-error");
     expectProgramRefuses("advise cornell --target-error 0.1 --time-limit 3", "give either --target-error");

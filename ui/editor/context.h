@@ -58,8 +58,10 @@ struct EditorContext {
     std::shared_ptr<const Picture> picture;  ///< nullptr before the first
     std::optional<PickResult> picked;
     ViewRectangle view;
-    uint32_t viewWidth = 0;   ///< of the picture that the viewport has room for, pixels
-    uint32_t viewHeight = 0;
+    /// Height that a panel which needs more than its pane has takes of the view while it is in front.
+    float viewLent = 0.0f;
+    /// Of the picture that the viewport has room for, pixels; with what is lent, so that no panel starts it over.
+    uint32_t viewWidth = 0, viewHeight = 0;
     float scale = 1.0f;       ///< of the display
     double seconds = 0.0;     ///< since the frame before
     bool viewMoves = false;   ///< something keeps changing what is seen; set by who does

@@ -169,7 +169,9 @@ void drawLayout(EditorContext& context) {
     const float splitter = kSplitter * s, status = kStatusHeight * s;
     const float height = display.y - top - status;
     const float highest = std::max(0.7f * height / s, kSmallestPane);
-    float bottomHeight = std::clamp(std::max(config.bottomHeight, leastHeightOf(context, Pane::bottom)), kSmallestPane, highest);
+    const float usualHeight = std::clamp(config.bottomHeight, kSmallestPane, highest);
+    float bottomHeight = std::clamp(leastHeightOf(context, Pane::bottom), usualHeight, highest);
+    context.viewLent = (bottomHeight - usualHeight) * s;
     const float left = config.leftWidth * s, right = config.rightWidth * s, bottom = bottomHeight * s;
     const float centreX = left + splitter;
     const float centreWidth = std::max(display.x - left - right - 2.0f * splitter, 50.0f);

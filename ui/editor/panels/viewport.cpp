@@ -43,9 +43,9 @@ struct ViewportState {
     uint64_t measured = ~uint64_t{0};  ///< revision of the document that `diagonal` is of
 };
 
-/// The largest rectangle of the settings' aspect within the window.
-ViewRectangle fitPicture(EditorContext& context) {
-    const ImVec2 at = ImGui::GetWindowPos(), window = ImGui::GetWindowSize();
+/// The largest rectangle of the settings' aspect within the window, were it so much higher.
+ViewRectangle fitPicture(EditorContext& context, float moreHeight) {
+    const ImVec2 at = ImGui::GetWindowPos(), window{ImGui::GetWindowWidth(), ImGui::GetWindowHeight() + moreHeight};
     const bool isHalf = context.states.get<Comparison>().mode() == CompareMode::sideBySide;
     const ImVec2 room = {isHalf ? 0.5f * window.x : window.x, window.y};
     const RenderSettings& s = context.state.settings();
@@ -189,10 +189,11 @@ void showPicture(EditorContext& context, ViewportState& v) {
 
 void drawViewportPanel(EditorContext& context) {
     auto& v = context.states.get<ViewportState>();
-    context.view = fitPicture(context);
+    context.view = fitPicture(context, 0.0f);
+    const ViewRectangle rendered = fitPicture(context, context.viewLent);
     const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-    context.viewWidth = static_cast<uint32_t>(std::max(std::round(context.view.width * pixels.x), 1.0f));
-    context.viewHeight = static_cast<uint32_t>(std::max(std::round(context.view.height * pixels.y), 1.0f));
+    context.viewWidth = static_cast<uint32_t>(std::max(std::round(rendered.width * pixels.x), 1.0f));
+    context.viewHeight = static_cast<uint32_t>(std::max(std::round(rendered.height * pixels.y), 1.0f));
     takePick(context, v);
     showPicture(context, v);
     const ImVec2 room = ImGui::GetWindowSize();
