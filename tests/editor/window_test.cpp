@@ -75,6 +75,18 @@ TEST_F(WindowTest, ResizesAndRendersAtTheNewSize) {
     EXPECT_EQ(readImage(folder_ / "small.png").width, 900);
 }
 
+/// A panel that is higher than the others covers a part of the view, and the picture is rendered as before.
+TEST_F(WindowTest, NoPanelStartsThePictureOver) {
+    EXPECT_EQ(runScript(kSmall, "panel Log\nwait-idle\nprint view-height\npanel Chart\nwait 0.3\nprint view-height\nquit\n"), 0)
+        << readFile("log");
+    std::istringstream log(readFile("log"));
+    std::vector<std::string> heights;
+    for (std::string line; std::getline(log, line);)
+        if (line.find("view-height") != std::string::npos) heights.push_back(line);
+    ASSERT_EQ(heights.size(), 2u) << log.str();
+    EXPECT_EQ(heights[0], heights[1]);
+}
+
 TEST_F(WindowTest, UndoesASettingAndKeepsValidationSilent) {
     EXPECT_EQ(
         runScript(

@@ -12,11 +12,12 @@ using stability::estimateOf;
 
 /// The battery's criterion (design: batteries.md) in each channel: |mean - exact| at most 4 standard errors (6e-5 to
 /// fail at random) and at most 0.5 %; rounding may move the mean by 2e-5. Fails also where the standard error is above
-/// 0.25 %: a test that cannot tell.
+/// 0.25 %: a test that cannot tell. Prints a row: the case, the mean and its standard error, the exact value.
 void expectExact(const FilmImage& film, glm::dvec3 exact, const std::string& what = "");
 void expectExact(const FilmImage& film, double exact, const std::string& what = "");
 
-/// Every pixel and channel, to a relative tolerance: for estimators without variance.
+/// Every pixel and channel, to a relative tolerance: for estimators without variance. The row has the furthest pixel's
+/// distance for a standard error.
 void expectEveryPixel(const FilmImage& film, glm::dvec3 exact, double relativeTolerance, const std::string& what = "");
 void expectEveryPixel(const FilmImage& film, double exact, double relativeTolerance, const std::string& what = "");
 
