@@ -21,6 +21,8 @@ constexpr uint32_t kBlocksPerTile = shared::kWorkgroupSize / kBlockLanes;
 constexpr uint32_t kFirstBlockCount = 1;
 constexpr uint32_t kGrowth = 2;
 constexpr uint32_t kMostSamplesAtOnce = 64;
+/// As many samples are a pass however long it takes: a lane whose path has ended goes on with the next (film/render_main.glsl).
+constexpr uint32_t kSamplesToRegenerate = 16;
 constexpr double kMemory = 0.8;
 
 /// Part of the samples that finds out where the others are wanted, and the fewest and the most of them.
@@ -234,6 +236,8 @@ uint32_t Renderer::pathsPerLane(uint32_t sampleCount) const {
     return settings_.adaptive ? static_cast<uint32_t>(std::ceil(mostRate_ * sampleCount)) + 1 : sampleCount;
 }
 
+bool Renderer::regenerates() const { return !wavefront_ && settings_.integrator == "path"; }
+
 /// Blocks whose paths a wavefront holds.
 uint32_t Renderer::mostBlocks() const {
     return wavefront_ ? wavefront_->plan().capacity / (pathsPerLane(passSamples_) * kBlockLanes) : blockCount_;
@@ -254,11 +258,13 @@ uint32_t Renderer::chooseBlockCount() const {
     return std::min(count / kBlocksPerTile * kBlocksPerTile, bandEnd - nextBlock_);
 }
 
-/// Samples of the next pass: several where the whole image takes less than a slice.
+/// Samples of the next pass: several where the whole image takes less than a slice, or where lanes go on from one to the
+/// next. Not many more than there are, so that pixels have about as many while a pass is under way.
 void Renderer::chooseSampleCount() {
-    const double perSample = passSeconds_ / passSamples_;
-    const double fitting =
-        std::clamp(settings_.sliceMs * 1e-3 / std::max(perSample, 1e-9), 1.0, double{kMostSamplesAtOnce});
+    const double slice = settings_.sliceMs * 1e-3, perSample = std::max(passSeconds_ / passSamples_, 1e-9);
+    // The smallest dispatch is one block.
+    const double ofBlock = std::clamp(slice / std::max(secondsPerBlockSample_, 1e-9), 1.0, double{kSamplesToRegenerate});
+    const double fitting = std::clamp(slice / perSample, regenerates() ? ofBlock : 1.0, double{kMostSamplesAtOnce});
     const int64_t end = passFirst_ < pilotSamples_ ? int64_t{pilotSamples_} : settings_.spp;
     const auto remaining = static_cast<uint32_t>(end - passFirst_);
     passSamples_ = std::min({static_cast<uint32_t>(fitting), passSamples_ * kGrowth, std::max(remaining, 1u)});

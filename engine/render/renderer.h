@@ -83,6 +83,7 @@ private:
     double dispatch(uint32_t firstBlock, uint32_t blockCount, uint32_t firstSample, uint32_t sampleCount);
     uint32_t chooseBlockCount() const;
     uint32_t pathsPerLane(uint32_t sampleCount) const;
+    bool regenerates() const;
     uint32_t mostBlocks() const;
     void chooseSampleCount();
     void uploadFrame();

@@ -9,12 +9,25 @@
 #include "integrators/views.glsl"
 #include "integrators/whitted.glsl"
 
-vec3 integrate(uvec2 pixel, uint sampleIndex) {
+// A camera ray, and the random numbers of all that follows.
+struct CameraSample {
+    Ray ray;
+    RayCone cone;
+    Sampler random;
+};
+
+CameraSample startSample(uvec2 pixel, uint sampleIndex) {
     Sampler random = makeSampler(frame.seed, pixel, frame.width, sampleIndex);
     setRayTime(random);
-    Ray ray = cameraRay(pixel, random);
-    RayCone cone = RayCone(0.0, frame.pixelSpread);
-    if (kIntegrator == kIntegratorPath) return integratePath(ray, cone, random);
+    return CameraSample(cameraRay(pixel, random), RayCone(0.0, frame.pixelSpread), random);
+}
+
+// By all integrators but `path`, whose loop is over the bounces of all samples (film/render_main.glsl).
+vec3 integrate(uvec2 pixel, uint sampleIndex) {
+    CameraSample start = startSample(pixel, sampleIndex);
+    Ray ray = start.ray;
+    RayCone cone = start.cone;
+    Sampler random = start.random;
     if (kIntegrator == kIntegratorDirect) return integrateDirect(ray, cone, random);
     if (kIntegrator == kIntegratorAo) return integrateAo(ray, cone, random);
     if (kIntegrator == kIntegratorWhitted) return integrateWhitted(ray, cone, random);

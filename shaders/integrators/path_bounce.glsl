@@ -87,11 +87,11 @@ void addEmission(inout PathState path, Surface s, Hit hit, vec3 wo) {
 }
 
 // One light and the way to it. `key`: of the ray that came here.
-ShadowRay sampleDirect(PathState path, Surface s, vec3 wo, vec2 kind, vec2 choice, vec2 u, uint key) {
+ShadowRay sampleDirect(PathState path, Surface s, Opaque o, vec3 wo, vec2 kind, vec2 choice, vec2 u, uint key) {
     LightSample light = sampleLight(path.receiver, kind.x, choice, u);
     if (isBlack(light.radiance)) return kNoShadowRay;
     float pdf;
-    vec3 f = evalBsdf(s, wo, light.direction, pdf);
+    vec3 f = evalBsdf(s, o, wo, light.direction, pdf);
     if (isBlack(f)) return kNoShadowRay;
     vec3 origin = offsetOrigin(s, light.direction);
     // A sampled point is approached from outside: the last part in 1e4 of the way is not searched for occluders, which
@@ -108,10 +108,10 @@ ShadowRay sampleDirect(PathState path, Surface s, vec3 wo, vec2 kind, vec2 choic
 }
 
 // From a surface to the next ray, by the material. False where the path ends.
-bool scatterPath(inout PathState path, inout Ray ray, Surface s, vec3 wo, Sampler random) {
+bool scatterPath(inout PathState path, inout Ray ray, Surface s, Opaque o, vec3 wo, Sampler random) {
     uint pair = firstPair(path.bounce);
     vec2 lobe = sample2D(random, pair + kPairLobe);
-    BsdfSample next = sampleBsdf(s, wo, lobe.x, sample2D(random, pair + kPairBsdf));
+    BsdfSample next = sampleBsdf(s, o, wo, lobe.x, sample2D(random, pair + kPairBsdf));
     bool lives = !isBlack(next.weight);
     path.throughput *= next.weight;
     if (needs(kNeedTransmission) && next.transmitted && !s.thin) {
@@ -151,12 +151,13 @@ bool shadePath(inout PathState path, inout Ray ray, Hit hit, bool isHit, Sampler
         } else {
             if (needs(kNeedEmissive)) addEmission(path, s, hit, wo);
             if (path.bounce < frame.maxDepth) {
+                Opaque o = opaqueOf(s, wo);
                 if (needs(kNeedLights)) {
                     path.receiver = receiverAt(s);
-                    shadow = sampleDirect(path, s, wo, lightKind, sample2D(random, pair + kPairLightChoice),
+                    shadow = sampleDirect(path, s, o, wo, lightKind, sample2D(random, pair + kPairLightChoice),
                                           sample2D(random, pair + kPairLightPoint), ray.key);
                 }
-                lives = scatterPath(path, ray, s, wo, random);
+                lives = scatterPath(path, ray, s, o, wo, random);
             }
         }
     }

@@ -62,8 +62,9 @@ vec3 evalOpaque(Surface s, Opaque o, vec3 wo, vec3 wi, out float pdf) {
     return value;
 }
 
-// f |cos| of the lobes that scatter around, and the density with which sampleBsdf chooses wi. Both directions world, unit.
-vec3 evalBsdf(Surface s, vec3 wo, vec3 wi, out float pdf) {
+// f |cos| of the lobes that scatter around, and the density with which sampleBsdf chooses wi. Both directions world, unit; `o` of
+// this surface and wo.
+vec3 evalBsdf(Surface s, Opaque o, vec3 wo, vec3 wi, out float pdf) {
     pdf = 0.0;
     float cosO = dot(wo, s.normal), cosI = dot(wi, s.normal);
     if (cosO <= 0.0 || cosI * dot(wi, s.geometricNormal) <= 0.0) return vec3(0.0);
@@ -71,7 +72,7 @@ vec3 evalBsdf(Surface s, vec3 wo, vec3 wi, out float pdf) {
     float opaque = opaqueShare(s);
     vec3 value = vec3(0.0);
     if (opaque > 0.0 && cosI > 0.0) {
-        value = opaque * cosI * evalOpaque(s, opaqueOf(s, wo), wo, wi, pdf);
+        value = opaque * cosI * evalOpaque(s, o, wo, wi, pdf);
         pdf *= opaque;
     }
     if (needs(kNeedRoughTransmission) && opaque < 1.0 && isRoughGlass(s)) {
@@ -87,53 +88,65 @@ BsdfSample mirrored(Surface s, vec3 n, vec3 wo, vec3 weight) {
     return dot(wi, s.geometricNormal) > 0.0 ? BsdfSample(wi, weight, 0.0, false) : kAbsorbed;
 }
 
-BsdfSample scattered(Surface s, vec3 wo, vec3 wi) {
-    float pdf;
-    vec3 value = evalBsdf(s, wo, wi, pdf);
-    return pdf > 0.0 ? BsdfSample(wi, value / pdf, pdf, dot(wi, s.normal) < 0.0) : kAbsorbed;
-}
+// A direction whose weight and density are those of all lobes that scatter around.
+struct Drawn {
+    BsdfSample mirror;  // used where nothing scatters
+    vec3 direction;
+    bool scatters;
+};
 
-BsdfSample sampleBase(Surface s, Opaque o, mat3 world, vec3 wo, float lobe, vec2 u) {
+Drawn drawnMirror(BsdfSample mirror) { return Drawn(mirror, vec3(0.0), false); }
+Drawn drawnAround(vec3 direction) { return Drawn(kAbsorbed, direction, true); }
+
+Drawn drawBase(Surface s, Opaque o, mat3 world, vec3 wo, float lobe, vec2 u) {
     float cosO = dot(wo, s.normal);
     if (needs(kNeedSpecular) && lobe < o.base.specularShare) {
         if (!isSmooth(s)) {
             vec3 h = sampleFacet(s, world, wo, u);
-            return scattered(s, wo, 2.0 * dot(wo, h) * h - wo);
+            return drawnAround(2.0 * dot(wo, h) * h - wo);
         }
         vec3 weight = fresnelSchlick(o.base.f0, o.base.f90, cosO) / (o.base.specularShare * (1.0 - o.coatShare));
         if (needs(kNeedSheen)) weight *= underSheen(s, cosO, cosO);
         if (needs(kNeedClearcoat)) weight *= underClearcoat(s, wo, reflect(-wo, s.normal));
-        return mirrored(s, s.normal, wo, weight);
+        return drawnMirror(mirrored(s, s.normal, wo, weight));
     }
     float pdf;
-    return scattered(s, wo, world * sampleCosineHemisphere(u, pdf));
+    return drawnAround(world * sampleCosineHemisphere(u, pdf));
 }
 
-// `lobe` chooses between the lobes, `u` within one.
-BsdfSample sampleBsdf(Surface s, vec3 wo, float lobe, vec2 u) {
+Drawn drawLobe(Surface s, Opaque o, vec3 wo, float lobe, vec2 u) {
     if (needs(kNeedTransmission)) {
         float through = throughShare(s);
         if (lobe < through) {
-            if (!isRoughGlass(s)) return sampleTransmission(s, wo, lobe / through);
+            if (!isRoughGlass(s)) return drawnMirror(sampleTransmission(s, wo, lobe / through));
             vec3 wi = sampleRoughGlass(s, wo, lobe / through, u);
-            return wi == vec3(0.0) ? kAbsorbed : scattered(s, wo, wi);
+            return wi == vec3(0.0) ? drawnMirror(kAbsorbed) : drawnAround(wi);
         }
         lobe = (lobe - through) / (1.0 - through);
     }
     mat3 world = shadingFrame(s);
-    Opaque o = opaqueOf(s, wo);
     if (needs(kNeedClearcoat) && o.coatShare > 0.0) {
         if (lobe < o.coatShare) {
             vec3 n = coatNormal(s);
             if (isCoatSmooth(s))
-                return mirrored(s, n, wo, vec3(s.lobes.clearcoat * clearcoatFresnel(dot(wo, n)) / o.coatShare));
+                return drawnMirror(mirrored(s, n, wo, vec3(s.lobes.clearcoat * clearcoatFresnel(dot(wo, n)) / o.coatShare)));
             mat3 coat = needs(kNeedCoatNormals) ? frameAround(n) : world;
             vec3 h = coat * sampleGgxNormal(wo * coat, vec2(s.lobes.clearcoatAlpha), u);
-            return scattered(s, wo, 2.0 * dot(wo, h) * h - wo);
+            return drawnAround(2.0 * dot(wo, h) * h - wo);
         }
         lobe = (lobe - o.coatShare) / (1.0 - o.coatShare);
     }
-    return sampleBase(s, o, world, wo, lobe, u);
+    return drawBase(s, o, world, wo, lobe, u);
+}
+
+// `lobe` chooses between the lobes, `u` within one. The lobes are evaluated in one place: where lanes take both sides of each
+// branch, each place is paid for.
+BsdfSample sampleBsdf(Surface s, Opaque o, vec3 wo, float lobe, vec2 u) {
+    Drawn drawn = drawLobe(s, o, wo, lobe, u);
+    if (!drawn.scatters) return drawn.mirror;
+    float pdf;
+    vec3 value = evalBsdf(s, o, wo, drawn.direction, pdf);
+    return pdf > 0.0 ? BsdfSample(drawn.direction, value / pdf, pdf, dot(drawn.direction, s.normal) < 0.0) : kAbsorbed;
 }
 
 #endif

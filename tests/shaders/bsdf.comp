@@ -19,8 +19,17 @@ Surface seenFrom(vec3 wo) {
     return surfaceAt(Ray(wo, 0.0, -wo, kInfinity, 0u), Hit(1.0, vec2(0.3), 0u, 0u), RayCone(0.0, 0.0), 0.5);
 }
 
+BsdfSample drawFrom(Surface s, uint i) {
+    return sampleBsdf(s, opaqueOf(s, push.wo), push.wo, numbers(i, 0u).x, numbers(i, 1u));
+}
+
+vec3 evalFrom(vec3 wo, vec3 wi, out float pdf) {
+    Surface s = seenFrom(wo);
+    return evalBsdf(s, opaqueOf(s, wo), wo, wi, pdf);
+}
+
 vec4 sampled(uint i) {
-    BsdfSample drawn = sampleBsdf(seenFrom(push.wo), push.wo, numbers(i, 0u).x, numbers(i, 1u));
+    BsdfSample drawn = drawFrom(seenFrom(push.wo), i);
     return drawn.pdf > 0.0 ? vec4(drawn.direction, drawn.pdf) : vec4(0.0);
 }
 
@@ -29,7 +38,7 @@ vec4 onGrid(uint i) {
     float phi = 2.0 * kPi * ((float(i % push.columns) + 0.5) / float(push.columns) - 0.5);
     float y = 2.0 * (float(i / push.columns) + 0.5) / float(push.count / push.columns) - 1.0;
     float r = sqrt(max(0.0, 1.0 - y * y)), pdf;
-    vec3 f = evalBsdf(seenFrom(push.wo), push.wo, vec3(r * cos(phi), y, r * sin(phi)), pdf);
+    vec3 f = evalFrom(push.wo, vec3(r * cos(phi), y, r * sin(phi)), pdf);
     return vec4(f, pdf);
 }
 
@@ -43,13 +52,13 @@ vec3 directionAbove(vec2 u) {
 vec4 bothWays(uint i) {
     float pdf;
     vec3 a = directionAbove(numbers(i, 0u)), b = directionAbove(numbers(i, 1u));
-    return vec4(evalBsdf(seenFrom(a), a, b, pdf).xy / b.y, evalBsdf(seenFrom(b), b, a, pdf).xy / a.y);
+    return vec4(evalFrom(a, b, pdf).xy / b.y, evalFrom(b, a, pdf).xy / a.y);
 }
 
 // Light, not radiance: a boundary's scale by the square of the index is taken back.
 vec4 left(uint i) {
     Surface s = seenFrom(push.wo);
-    BsdfSample drawn = sampleBsdf(s, push.wo, numbers(i, 0u).x, numbers(i, 1u));
+    BsdfSample drawn = drawFrom(s, i);
     return vec4(drawn.weight * (drawn.transmitted && !s.thin ? s.eta * s.eta : 1.0), drawn.pdf);
 }
 
