@@ -21,8 +21,6 @@ constexpr uint32_t kBlocksPerTile = shared::kWorkgroupSize / kBlockLanes;
 constexpr uint32_t kFirstBlockCount = 1;
 constexpr uint32_t kGrowth = 2;
 constexpr uint32_t kMostSamplesAtOnce = 64;
-/// As many samples are a pass however long it takes: a lane whose path has ended goes on with the next (film/render_main.glsl).
-constexpr uint32_t kSamplesToRegenerate = 16;
 constexpr double kMemory = 0.8;
 
 /// Part of the samples that finds out where the others are wanted, and the fewest and the most of them.
@@ -259,11 +257,11 @@ uint32_t Renderer::chooseBlockCount() const {
 }
 
 /// Samples of the next pass: several where the whole image takes less than a slice, or where lanes go on from one to the
-/// next. Not many more than there are, so that pixels have about as many while a pass is under way.
+/// next (film/render_main.glsl). Not many more than there are, so that pixels have about as many while a pass is under way.
 void Renderer::chooseSampleCount() {
     const double slice = settings_.sliceMs * 1e-3, perSample = std::max(passSeconds_ / passSamples_, 1e-9);
     // The smallest dispatch is one block.
-    const double ofBlock = std::clamp(slice / std::max(secondsPerBlockSample_, 1e-9), 1.0, double{kSamplesToRegenerate});
+    const double ofBlock = std::clamp(slice / std::max(secondsPerBlockSample_, 1e-9), 1.0, static_cast<double>(mostOfPass_));
     const double fitting = std::clamp(slice / perSample, regenerates() ? ofBlock : 1.0, double{kMostSamplesAtOnce});
     const int64_t end = passFirst_ < pilotSamples_ ? int64_t{pilotSamples_} : settings_.spp;
     const auto remaining = static_cast<uint32_t>(end - passFirst_);

@@ -45,6 +45,9 @@ public:
     /// Goes on to another number of samples. They are those that a rendering of so many has from the start unless the
     /// sampler is stratified.
     void setSampleGoal(int64_t spp) { settings_.spp = spp; }
+    /// Samples of a pass over the image at most where lanes go on from one sample to the next: few for a picture that is
+    /// looked at while it grows, whose pixels then have nearly as many.
+    void limitPass(uint32_t samples) { mostOfPass_ = samples; }
     /// Of the pictures from now on: of denoiserNames().
     void setDenoiser(const std::string& name) { settings_.denoise = name; }
 
@@ -109,6 +112,7 @@ private:
     uint32_t firstKept_ = 0;    ///< sample that the film begins with
     double leastRate_ = 1.0, meanRate_ = 1.0, mostRate_ = 1.0;
     uint32_t passSamples_ = 1;  ///< samples of it
+    uint32_t mostOfPass_ = 16;
     uint32_t lastBlockCount_ = 0;
     double secondsPerBlockSample_ = 0.0;
     double passSeconds_ = 0.0;

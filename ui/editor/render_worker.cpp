@@ -28,6 +28,8 @@ namespace {
 constexpr int kNice = 10;
 /// A slice at most, so that a new request waits no longer than that.
 constexpr double kSliceMs = 25.0;
+/// Samples of a pass that takes longer than a slice: what grows in sight grows evenly, and whole passes are what A/B times.
+constexpr uint32_t kMostOfPass = 1;
 /// Unless a new request is waiting for longer than this, a moving picture is finished.
 constexpr double kPatienceSeconds = 0.2;
 /// Between words on how it goes on, which take a frame of the interface each, while no picture comes.
@@ -208,6 +210,7 @@ private:
         auto renderer = std::make_unique<Renderer>(device_.get(), prepared, settings);
         caster_.forget();
         renderer_ = std::move(renderer);
+        renderer_->limitPass(kMostOfPass);
         prepared_ = std::move(prepared);
         malloc_trim(0);  // what smaller pieces of the scene before have left
         isPrepared_ = true;
@@ -248,6 +251,7 @@ private:
         auto renderer = std::make_unique<Renderer>(device_.get(), prepared_, filmSettings());
         caster_.forget();
         renderer_ = std::move(renderer);
+        renderer_->limitPass(kMostOfPass);
         clearError();
         describe();
         begin();
