@@ -7,38 +7,21 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/measure/image_error.h"
+#include "engine/measure/advise_forecast.h"
 #include "engine/measure/setting_effects.h"
 #include "engine/render/denoise.h"
 #include "engine/render/integrators.h"
-#include "engine/render/renderer.h"
 #include "engine/render/tracer.h"
 
 namespace raylab {
 namespace {
 
-/// One rendering of a probe takes about so long, and has so many samples at most.
-constexpr double kProbeSeconds = 0.25;
-constexpr uint32_t kMostProbeSamples = 256;
-constexpr int kProbeSeeds = 4;
 /// That a step takes at most: a first look, the held settings alone, and the probes.
 constexpr uint32_t kSeedsOfStep = 1 + 2 * kProbeSeeds;
-/// A candidate this many times slower than the held value after two seeds is measured no longer.
-constexpr double kHopeless = 3.0;
 /// A gain that is less is not worth an unusual setting.
 constexpr double kWorthwhile = 1.03;
-/// Samples of the second measurement of a forecast, over those it forecasts.
-constexpr double kCalibrationShare = 0.25;
-/// Noise falls with a power of the samples: independent ones have 1, well-distributed ones more on smooth pixels.
-constexpr double kLeastPower = 0.9, kMostPower = 1.5;
-
-/// What an adaptive rendering gains shows in some part of the samples that the goal takes, and in no fewer than these:
-/// its pilot is one of that many.
+/// Of the samples that the goal takes, what an adaptive rendering is tried with, where that is no fewer than kLeastAdaptive.
 constexpr double kAdaptiveShare = 0.125;
-constexpr uint32_t kLeastAdaptive = 16;
-/// A denoiser is looked at with twice the samples each time: no further where the rate of the last two doublings does
-/// not come to the goal within these.
-constexpr uint32_t kMostDenoiseSamples = 1u << 20;
 constexpr const char* kAdaptive = "adaptive";
 constexpr const char* kDenoise = "denoise";
 
@@ -74,21 +57,6 @@ std::vector<std::string> valuesOf(const Coordinate& coordinate, const RenderSett
     return values;
 }
 
-/// A rendering with so many samples, denoised: by one seed, or by all.
-struct DenoisedLevel {
-    double samples = 0.0;
-    double seconds = 0.0;
-    double error = 0.0;
-};
-
-/// Where the goal is reached with a denoiser.
-struct DenoisedForecast {
-    std::vector<DenoisedLevel> seeds;  ///< by each alone; none where it is not reached in time
-    DenoisedLevel all;
-    double relativeBias = 0.0;
-    double energy = 0.0;
-};
-
 double medianSeconds(const Probe& probe, double error) {
     std::vector<double> seconds;
     for (size_t seed = 0; seed < probe.sampleSeconds.size(); ++seed)
@@ -99,39 +67,17 @@ double medianSeconds(const Probe& probe, double error) {
 /// The state of a search.
 class Search {
 public:
-    Search(Device& device, const Scene& scene, const Reference& reference, const AdviceGoal& goal,
-           const std::function<bool()>& stop, size_t stepsBefore)
-        : device_(device),
-          scene_(scene),
-          reference_(reference),
-          goal_(goal),
-          stop_(stop),
-          nextSeed_(1 + kSeedsOfStep * static_cast<uint32_t>(stepsBefore)) {}
+    Search(Forecaster& forecaster, const AdviceGoal& goal, const Device& device)
+        : forecaster_(forecaster), goal_(goal), device_(device) {}
 
     /// Of the values of a coordinate; false where it was stopped. `held` gets the chosen value, `steps` what was found.
     bool tryCoordinate(const Coordinate& coordinate, RenderSettings& held, std::vector<AdviceStep>& steps);
     /// The denoisers, against what the held settings come to without one.
     bool tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, Forecast& forecast);
-    std::optional<Forecast> forecast(const RenderSettings& settings);
-    std::optional<Achieved> run(const RenderSettings& settings);
 
 private:
-    std::optional<std::vector<Probe>> measure(std::span<const RenderSettings> candidates, uint32_t samples, int seeds) {
-        ProbePlan plan;
-        plan.samples = samples;
-        for (const RenderSettings& candidate : candidates)
-            plan.samples = std::max(plan.samples, leastSamples(candidate));
-        plan.seeds = seeds;
-        plan.firstSeed = nextSeed_;
-        plan.hopeless = kHopeless;
-        nextSeed_ += static_cast<uint32_t>(seeds);
-        return probe(device_, scene_, candidates, reference_, plan, stop_);
-    }
-    uint32_t samplesFor(double sampleSeconds) const {
-        return static_cast<uint32_t>(std::clamp(kProbeSeconds / sampleSeconds, 1.0, double{kMostProbeSamples}));
-    }
     uint32_t samplesOf(const Coordinate& coordinate) const {
-        const uint32_t usual = samplesFor(sampleSeconds_);
+        const uint32_t usual = forecaster_.samplesFor(sampleSeconds_);
         if (coordinate.setting != std::string_view(kAdaptive)) return usual;
         const double share = std::min(kAdaptiveShare * wantedSamples_, double{kMostProbeSamples});
         return std::max({usual, kLeastAdaptive, static_cast<uint32_t>(share)});
@@ -141,8 +87,6 @@ private:
         sampleSeconds_ = probe.medianSampleSeconds();
         wantedSamples_ = (medianSeconds(probe, errorForNoise(probe)) - probe.buildSeconds) / sampleSeconds_;
     }
-    std::optional<Forecast> forecastBySamples(const RenderSettings& settings);
-    std::optional<DenoisedForecast> forecastDenoised(const RenderSettings& settings, double mostSeconds);
     Interval gainOverPlain(const DenoisedForecast& found, const Forecast& plain) const;
     /// The error that candidates are compared at.
     double errorFor(const Probe& held) const {
@@ -154,12 +98,9 @@ private:
                                          : held.errorAfter(goal_.seconds);
     }
 
-    Device& device_;
-    const Scene& scene_;
-    const Reference& reference_;
+    Forecaster& forecaster_;
     AdviceGoal goal_;
-    const std::function<bool()>& stop_;
-    uint32_t nextSeed_;
+    const Device& device_;
     double sampleSeconds_ = 0.0;  ///< of the held settings
     double wantedSamples_ = 0.0;  ///< that they take to the goal
 };
@@ -206,12 +147,12 @@ size_t choose(const std::vector<AdviceOption>& options, const std::vector<Probe>
 bool Search::lookAtHeld(const RenderSettings& held, bool needsWanted) {
     const std::vector<RenderSettings> one{held};
     if (sampleSeconds_ == 0.0) {
-        const auto first = measure(one, 1, 1);
+        const auto first = forecaster_.measure(one, 1, 1);
         if (!first) return false;
         sampleSeconds_ = first->front().medianSampleSeconds();
     }
     if (needsWanted && wantedSamples_ == 0.0) {
-        const auto probes = measure(one, samplesFor(sampleSeconds_), kProbeSeeds);
+        const auto probes = forecaster_.measure(one, forecaster_.samplesFor(sampleSeconds_), kProbeSeeds);
         if (!probes) return false;
         noteHeld(probes->front());
     }
@@ -227,7 +168,7 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, s
     const bool isAdaptive = coordinate.setting == std::string_view(kAdaptive);
     if (!lookAtHeld(held, isAdaptive)) return false;
     if (isAdaptive && wantedSamples_ < kLeastAdaptive) return true;  // its pilot would be more than the whole
-    auto probes = measure(candidates, samplesOf(coordinate), kProbeSeeds);
+    auto probes = forecaster_.measure(candidates, samplesOf(coordinate), kProbeSeeds);
     if (!probes) return false;
     const bool isSameMean = isNoiseSetting(coordinate.setting) || isSpeedSetting(coordinate.setting);
     if (isSameMean) shareBias(*probes);
@@ -243,124 +184,6 @@ bool Search::tryCoordinate(const Coordinate& coordinate, RenderSettings& held, s
     noteHeld((*probes)[best]);
     steps.push_back(std::move(step));
     return true;
-}
-
-/// From two numbers of samples: a short one, and one of some share of what is forecast.
-std::optional<Forecast> Search::forecastBySamples(const RenderSettings& settings) {
-    const std::vector<RenderSettings> one{settings};
-    const uint32_t least = settings.adaptive ? kLeastAdaptive : 1;
-    const auto first = measure(one, least, 1);
-    if (!first) return std::nullopt;
-    const uint32_t fewSamples = std::max(least, samplesFor(first->front().medianSampleSeconds()));
-    const auto few = measure(one, fewSamples, kProbeSeeds);
-    if (!few) return std::nullopt;
-    const Probe& low = few->front();
-    const double aim = goal_.relativeError * goal_.relativeError;
-    double wanted = goal_.seconds / low.medianSampleSeconds();
-    if (goal_.relativeError > 0.0) {
-        const double room = aim - low.biasSquared();
-        if (room <= 0.0) return Forecast{0, 0.0, 0.0, std::sqrt(low.biasSquared())};
-        wanted = low.sampleVariance() / room;
-    }
-    const auto manySamples = std::max(2 * fewSamples, static_cast<uint32_t>(std::min(wanted * kCalibrationShare, 1e6)));
-    const auto many = measure(one, manySamples, kProbeSeeds);
-    if (!many) return std::nullopt;
-    const Probe& high = many->front();
-    const double bias = high.biasSquared(), variance = high.sampleVariance() / manySamples;
-    const double before = low.sampleVariance() / fewSamples;
-    double power = 1.0;
-    if (variance > 0.0 && before > 0.0)
-        power = std::clamp(std::log(before / variance) / std::log(double(manySamples) / fewSamples), kLeastPower,
-                           kMostPower);
-    double samples = std::floor(goal_.seconds / high.medianSampleSeconds());
-    if (goal_.relativeError > 0.0) {
-        if (aim <= bias) return Forecast{0, 0.0, 0.0, std::sqrt(bias)};
-        samples = std::ceil(manySamples * std::pow(variance / (aim - bias), 1.0 / power));
-    }
-    samples = std::clamp(samples, static_cast<double>(leastSamples(settings)), 4e9);
-    const double error = std::sqrt(bias + variance * std::pow(manySamples / samples, power));
-    return Forecast{static_cast<uint32_t>(samples), samples * high.medianSampleSeconds(), error, std::sqrt(bias)};
-}
-
-/// Errors that the reference's own noise hides count as large as that, and as one in a million at least.
-double leastError(const Reference& reference) { return std::max(reference.relativeError, 1e-6); }
-
-DenoisedLevel levelOf(const Probe& probe, double leastError) {
-    return {static_cast<double>(probe.samples), probe.medianSampleSeconds() * probe.samples,
-            std::max(probe.rmsError(), leastError)};
-}
-
-DenoisedLevel levelOf(const Probe& probe, size_t seed, double leastError) {
-    return {static_cast<double>(probe.samples), probe.sampleSeconds[seed] * probe.samples,
-            std::max(std::sqrt(std::max(0.0, probe.squaredErrors[seed])), leastError)};
-}
-
-/// Whether the error would pass the goal within kMostDenoiseSamples if it fell on as from one level to the next.
-bool isHeadedFor(double goal, const DenoisedLevel& low, const DenoisedLevel& high) {
-    const double power = std::log(low.error / high.error) / std::log(high.samples / low.samples);
-    return high.error <= goal * std::pow(kMostDenoiseSamples / high.samples, power);
-}
-
-/// Between two levels: the time along a line, the error along a power of the samples. The higher one where the error
-/// asked is not between theirs.
-DenoisedLevel whereGoalIs(const AdviceGoal& goal, const DenoisedLevel& low, const DenoisedLevel& high) {
-    const double perSample = (high.seconds - low.seconds) / (high.samples - low.samples);
-    const double power = std::log(low.error / high.error) / std::log(high.samples / low.samples);
-    double samples = high.samples;
-    if (goal.relativeError == 0.0)
-        samples = low.samples + (goal.seconds - low.seconds) / perSample;
-    else if (low.error > goal.relativeError && high.error < goal.relativeError)
-        samples = low.samples * std::pow(low.error / goal.relativeError, 1.0 / power);
-    samples = std::clamp(std::ceil(samples), low.samples, high.samples);
-    return {samples, low.seconds + (samples - low.samples) * perSample,
-            low.error * std::pow(low.samples / samples, power)};
-}
-
-/// A denoiser's error falls neither as its samples' does nor as any power that is known, and its bias with it: measured
-/// with twice the samples each time, until the goal is passed, is out of sight or more than `mostSeconds` have gone.
-std::optional<DenoisedForecast> Search::forecastDenoised(const RenderSettings& settings, double mostSeconds) {
-    const std::vector<RenderSettings> one{settings};
-    const double least = leastError(reference_);
-    std::vector<Probe> levels;
-    DenoisedForecast found;
-    int timesAstray = 0;
-    for (uint32_t samples = leastSamples(settings); samples <= kMostDenoiseSamples; samples *= 2) {
-        const auto probes = measure(one, samples, kProbeSeeds);
-        if (!probes) return std::nullopt;
-        const Probe& now = levels.emplace_back(probes->front());
-        const DenoisedLevel level = levelOf(now, least);
-        found.relativeBias = std::sqrt(now.biasSquared());
-        found.energy = now.energy;
-        const bool isByError = goal_.relativeError > 0.0;
-        const bool isLast = !isByError && samples * 2 > kMostDenoiseSamples;
-        if (isLast || (isByError ? level.error <= goal_.relativeError : level.seconds > goal_.seconds)) {
-            const Probe* const before = levels.size() > 1 ? &levels[levels.size() - 2] : nullptr;
-            found.all = before ? whereGoalIs(goal_, levelOf(*before, least), level) : level;
-            for (size_t seed = 0; seed < now.sampleSeconds.size(); ++seed) {
-                const DenoisedLevel high = levelOf(now, seed, least);
-                found.seeds.push_back(before ? whereGoalIs(goal_, levelOf(*before, seed, least), high) : high);
-            }
-            break;
-        }
-        if (level.seconds > mostSeconds) break;
-        if (isByError && levels.size() > 1)
-            timesAstray = isHeadedFor(goal_.relativeError, levelOf(levels[levels.size() - 2], least), level)
-                              ? 0
-                              : timesAstray + 1;
-        if (timesAstray == 2) break;
-    }
-    return found;
-}
-
-Forecast forecastOf(const DenoisedForecast& found) {
-    return {static_cast<uint32_t>(found.all.samples), found.all.seconds, found.all.error, found.relativeBias};
-}
-
-std::optional<Forecast> Search::forecast(const RenderSettings& settings) {
-    if (settings.denoise == kNoDenoiser) return forecastBySamples(settings);
-    const auto found = forecastDenoised(settings, std::numeric_limits<double>::infinity());
-    if (!found) return std::nullopt;
-    return forecastOf(*found);
 }
 
 /// At equal time the samples' noise would take the square of its ratio longer to fall as far.
@@ -385,7 +208,7 @@ bool Search::tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, 
         if (held.adaptive && adaptive != steps.end()) candidates.emplace_back(candidates.front()).adaptive = false;
         AdviceOption option{name, {0.0, 0.0, 0.0}};
         for (const RenderSettings& candidate : candidates) {
-            const auto found = forecastDenoised(candidate, std::max(plain.seconds, goal_.seconds));
+            const auto found = forecaster_.forecastDenoised(candidate, std::max(plain.seconds, goal_.seconds));
             if (!found) return false;
             const Interval gain = gainOverPlain(*found, plain);
             if (&candidate != &candidates.front() && gain.value <= option.gain.value) continue;
@@ -393,7 +216,7 @@ bool Search::tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, 
             if (!isWorthwhile(option)) continue;
             step.chosen = name;
             best = candidate;
-            forecast = forecastOf(*found);
+            forecast = found->forecast();
         }
         step.options.push_back(std::move(option));
     }
@@ -401,14 +224,6 @@ bool Search::tryDenoisers(RenderSettings& held, std::vector<AdviceStep>& steps, 
     held = best;
     steps.push_back(std::move(step));
     return true;
-}
-
-std::optional<Achieved> Search::run(const RenderSettings& settings) {
-    const std::vector<RenderSettings> one{settings};
-    const auto probes = measure(one, static_cast<uint32_t>(settings.spp), 1);
-    if (!probes) return std::nullopt;
-    const Probe& only = probes->front();
-    return Achieved{only.sampleSeconds.front() * only.samples, std::sqrt(std::max(0.0, only.squaredErrors.front()))};
 }
 
 /// What may have brought a bias that short probes did not show gives way to the next best value: false where nothing of
@@ -447,7 +262,8 @@ std::vector<std::string> adviceSettings() {
 
 bool advise(Device& device, const Scene& scene, const RenderSettings& base, const Reference& reference,
             const AdviceGoal& goal, const std::function<bool()>& stop, const AdviceProgress& progress, Advice& advice) {
-    Search search(device, scene, reference, goal, stop, advice.steps.size());
+    Forecaster forecaster(device, scene, reference, goal, stop, 1 + kSeedsOfStep * static_cast<uint32_t>(advice.steps.size()));
+    Search search(forecaster, goal, device);
     const auto isSearched = [&](std::string_view setting) {
         return goal.only.empty() || std::ranges::count(goal.only, setting) > 0;
     };
@@ -466,9 +282,9 @@ bool advise(Device& device, const Scene& scene, const RenderSettings& base, cons
     }
     if (!isSearched(kDenoise)) settings.denoise = base.denoise;
     progress("forecast");
-    std::optional<Forecast> forecast = search.forecast(settings);
+    std::optional<Forecast> forecast = forecaster.forecast(settings);
     while (forecast && forecast->samples == 0 && takeBackBiased(advice, forecast->relativeBias))
-        forecast = search.forecast(settings);
+        forecast = forecaster.forecast(settings);
     if (!forecast) return false;
     if (forecast->samples == 0)
         throw Error("nothing that was tried reaches a relative error of " + std::to_string(goal.relativeError) +
@@ -479,7 +295,7 @@ bool advise(Device& device, const Scene& scene, const RenderSettings& base, cons
     }
     const bool isAsBefore = base.denoise == settings.denoise &&
                             std::ranges::all_of(advice.steps, [](const AdviceStep& s) { return s.chosen == s.held; });
-    const std::optional<Forecast> standard = isAsBefore ? forecast : search.forecast(base);
+    const std::optional<Forecast> standard = isAsBefore ? forecast : forecaster.forecast(base);
     if (!standard) return false;
     // Each step's gain is an estimate, and few samples can be too few for what many would gain by.
     const bool isByError = goal.relativeError > 0.0;
@@ -492,7 +308,7 @@ bool advise(Device& device, const Scene& scene, const RenderSettings& base, cons
     }
     advice.settings.spp = forecast->samples;
     progress("verification");
-    const std::optional<Achieved> achieved = search.run(advice.settings);
+    const std::optional<Achieved> achieved = forecaster.run(advice.settings);
     if (!achieved) return false;
     advice.forecast = *forecast;
     advice.standard = *standard;
