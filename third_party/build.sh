@@ -10,6 +10,9 @@ folder=$root/build/$preset
 log=$folder/build.log
 mkdir -p "$folder"
 cd "$root"
+# ./run beside ./test waits for it: both may configure anew, each for its own targets.
+exec 9>"$folder/.lock"
+flock 9
 if [ ! -f "$folder/build.ninja" ] || [ $# -gt 0 ]; then
   cmake --preset "$preset" "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 4; }
 fi
